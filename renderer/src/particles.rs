@@ -1,0 +1,349 @@
+//! The host's particle set: validated, recentred and rescaled in f64 before it becomes f32.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// One particle as a file gives it. Lengths in the unit of the run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RawParticle {
+    pub position: [f64; 3],
+    /// Radius at which the kernel reaches zero.
+    pub support_radius: f64,
+    /// V_j = m_j/ρ_j, in any unit: only ratios between particles matter.
+    pub volume: f64,
+}
+
+/// How many particles were left out, and why (contract, section 5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Rejected {
+    /// Position, volume or quantity is not finite.
+    pub non_finite: u64,
+    /// Support radius is not positive and finite.
+    pub bad_radius: u64,
+}
+
+impl Rejected {
+    pub fn total(self) -> u64 {
+        self.non_finite + self.bad_radius
+    }
+}
+
+/// Axis-aligned box around particle centres, in the unit of the run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub min: DVec3,
+    pub max: DVec3,
+}
+
+impl Bounds {
+    pub fn centre(&self) -> DVec3 {
+        // Halves first: the sum of two huge coordinates may overflow.
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    pub fn diagonal(&self) -> f64 {
+        let size = self.max - self.min;
+        size.x.hypot(size.y).hypot(size.z)
+    }
+
+    pub fn union(&self, other: &Bounds) -> Bounds {
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+}
+
+/// What the grid needs of a particle set, ready for upload.
+///
+/// A position is (hi + lo)·unit + origin with two f32 each, so that neither the unit of the run nor
+/// its place in the world costs precision, nor does a close look at one end of a huge domain.
+pub struct ParticleSet {
+    id: u64,
+    origin: DVec3,
+    unit: f64,
+    bounds: Option<Bounds>,
+    radii: [f64; 2],
+    rejected: Rejected,
+    /// Row in the source of each kept particle; `None` where every row was kept.
+    source: Option<Vec<u32>>,
+    pub(crate) high: Vec<[f32; 4]>,
+    pub(crate) low: Vec<[f32; 4]>,
+}
+
+/// Weights V_j/h_j³ are kept within this distance of 1, so that no product with a kernel value
+/// overflows or vanishes in f32.
+const WEIGHT_LIMIT: f64 = 1e12;
+
+impl ParticleSet {
+    /// The most particles that one set may hold.
+    pub const MAX_PARTICLES: usize = u32::MAX as usize / 2;
+
+    /// Takes `count` particles from `particle(row)`, which is called from several threads.
+    /// Rows beyond [`ParticleSet::MAX_PARTICLES`] are the caller's error.
+    pub fn new(count: usize, particle: impl Fn(usize) -> RawParticle + Sync) -> ParticleSet {
+        assert!(count <= Self::MAX_PARTICLES, "{count} particles are more than a set can hold");
+        let verdicts = judge(count, &particle);
+        let source = (verdicts.rejected.total() > 0).then_some(verdicts.kept);
+        let kept = source.as_ref().map_or(count, Vec::len);
+        let row = |index: usize| source.as_ref().map_or(index, |rows| rows[index] as usize);
+
+        let bounds = verdicts.bounds;
+        let origin = bounds.map_or(DVec3::ZERO, |bounds| bounds.centre());
+        let radii = verdicts.radii;
+        // The nearest power of two: rescaling rounds nothing.
+        let unit = if kept == 0 { 1.0 } else { power_of_two(radii[0].sqrt() * radii[1].sqrt()) };
+        let middle_weight = geometric_mean(verdicts.weights);
+
+        let (high, low) = (0..kept)
+            .into_par_iter()
+            .map(|index| {
+                let raw = particle(row(index));
+                let position = (DVec3::from_array(raw.position) - origin) / unit;
+                let high = position.as_vec3();
+                let low = (position - high.as_dvec3()).as_vec3();
+                let radius = (raw.support_radius / unit) as f32;
+                let weight = (weight_of(&raw) - middle_weight).exp();
+                let weight = weight.clamp(1.0 / WEIGHT_LIMIT, WEIGHT_LIMIT) as f32;
+                ([high.x, high.y, high.z, radius], [low.x, low.y, low.z, weight])
+            })
+            .unzip();
+        ParticleSet {
+            id: next_id(),
+            origin,
+            unit,
+            bounds,
+            radii,
+            rejected: verdicts.rejected,
+            source,
+            high,
+            low,
+        }
+    }
+
+    /// Number of particles kept.
+    pub fn len(&self) -> usize {
+        self.high.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.high.is_empty()
+    }
+
+    /// Particles left out for their position, volume or radius.
+    pub fn rejected(&self) -> Rejected {
+        self.rejected
+    }
+
+    /// Box around the centres of the kept particles; `None` without particles.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.bounds
+    }
+
+    /// Smallest and largest support radius, in the unit of the run; zeros without particles.
+    pub fn support_radii(&self) -> [f64; 2] {
+        self.radii
+    }
+
+    /// Row in the source of the kept particle `index`.
+    pub fn source_row(&self, index: usize) -> usize {
+        self.source.as_ref().map_or(index, |rows| rows[index] as usize)
+    }
+
+    /// Position of the kept particle `index`, in the unit of the run.
+    pub fn position(&self, index: usize) -> DVec3 {
+        let [x, y, z, _] = self.high[index].map(f64::from);
+        let [dx, dy, dz, _] = self.low[index].map(f64::from);
+        self.origin + DVec3::new(x + dx, y + dy, z + dz) * self.unit
+    }
+
+    /// Support radius of the kept particle `index`, in the unit of the run.
+    pub fn support_radius(&self, index: usize) -> f64 {
+        f64::from(self.high[index][3]) * self.unit
+    }
+
+    /// Nearest and farthest depth along `forward` (a unit vector) from `eye` that the support of a
+    /// kept particle reaches; nearest is below zero where the eye is inside one. `None` where
+    /// nothing lies in front.
+    pub(crate) fn depth_extremes(
+        &self,
+        eye: DVec3,
+        forward: DVec3,
+        skip: impl Fn(usize) -> bool + Sync,
+    ) -> Option<[f64; 2]> {
+        let eye = self.to_device(eye);
+        let [near, far] = (0..self.len())
+            .into_par_iter()
+            .filter(|&index| !skip(index))
+            .map(|index| {
+                let [x, y, z, radius] = self.high[index].map(f64::from);
+                let [dx, dy, dz, _] = self.low[index].map(f64::from);
+                let depth = (DVec3::new(x + dx, y + dy, z + dz) - eye).dot(forward);
+                [depth - radius, depth + radius]
+            })
+            .filter(|[_, farthest]| *farthest > 0.0)
+            .reduce(|| EMPTY, join);
+        (near <= far).then_some([near * self.unit, far * self.unit])
+    }
+
+    /// Length of the device's unit in the unit of the run, a power of two.
+    pub(crate) fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// A point of the world in the device's frame.
+    pub(crate) fn to_device(&self, point: DVec3) -> DVec3 {
+        (point - self.origin) / self.unit
+    }
+
+    /// Distinguishes this set from every other one of the process.
+    pub(crate) fn id(&self) -> u64 {
+        self.id
+    }
+}
+
+/// The quantity of each kept particle, normalised so that the view's range becomes [0, 1].
+pub struct Quantity {
+    id: u64,
+    range: [f64; 2],
+    rejected: u64,
+    pub(crate) values: Vec<f32>,
+}
+
+impl Quantity {
+    /// Stands for a quantity that is not finite: the shaders leave such a particle out.
+    pub(crate) const REJECTED: f32 = 3.0e38;
+    /// Normalised values are kept within this distance of zero, so that sums stay finite.
+    const LIMIT: f64 = 1e18;
+
+    /// Takes the quantity of each source row of `particles` from `value(row)`. `range` is u = 0 and
+    /// u = 1; the finite minimum and maximum where it is `None`. A range of no width maps its own
+    /// value to u = ½, what lies below to 0 and above to 1.
+    pub fn new(
+        particles: &ParticleSet,
+        range: Option<[f64; 2]>,
+        value: impl Fn(usize) -> f64 + Sync,
+    ) -> Quantity {
+        let value = |index: usize| value(particles.source_row(index));
+        let [low, high] = range.unwrap_or_else(|| finite_range(particles.len(), value));
+        // Halves first: high − low of two huge values of opposite sign may overflow.
+        let width = high * 0.5 - low * 0.5;
+        let normalise = |q: f64| match width > 0.0 {
+            true => (q * 0.5 - low * 0.5) / width,
+            false if q < low => -Self::LIMIT,
+            false if q > low => Self::LIMIT,
+            false => 0.5,
+        };
+        let values: Vec<f32> = (0..particles.len())
+            .into_par_iter()
+            .map(|index| match value(index) {
+                q if q.is_finite() => normalise(q).clamp(-Self::LIMIT, Self::LIMIT) as f32,
+                _ => Self::REJECTED,
+            })
+            .collect();
+        let rejected = values.par_iter().filter(|&&u| u == Self::REJECTED).count() as u64;
+        Quantity { id: next_id(), range: [low, high], rejected, values }
+    }
+
+    /// The values that u = 0 and u = 1 stand for.
+    pub fn range(&self) -> [f64; 2] {
+        self.range
+    }
+
+    /// Particles left out because their quantity is not finite.
+    pub fn rejected(&self) -> u64 {
+        self.rejected
+    }
+
+    pub(crate) fn is_rejected(&self, index: usize) -> bool {
+        self.values[index] == Self::REJECTED
+    }
+
+    pub(crate) fn id(&self) -> u64 {
+        self.id
+    }
+}
+
+fn next_id() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+/// Finite minimum and maximum; [0, 1] where nothing is finite.
+fn finite_range(count: usize, value: impl Fn(usize) -> f64 + Sync) -> [f64; 2] {
+    let [low, high] = (0..count)
+        .into_par_iter()
+        .map(|index| value(index))
+        .filter(|q| q.is_finite())
+        .fold(|| EMPTY, |[low, high], q| [low.min(q), high.max(q)])
+        .reduce(|| EMPTY, join);
+    if low <= high { [low, high] } else { [0.0, 1.0] }
+}
+
+/// The range of nothing.
+const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+fn join(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+/// What one pass over the source finds out.
+struct Verdicts {
+    kept: Vec<u32>,
+    rejected: Rejected,
+    bounds: Option<Bounds>,
+    radii: [f64; 2],
+    /// Extremes of ln(V/h³).
+    weights: [f64; 2],
+}
+
+fn judge(count: usize, particle: &(impl Fn(usize) -> RawParticle + Sync)) -> Verdicts {
+    let nothing = || (Vec::new(), Rejected::default(), None::<Bounds>, EMPTY, EMPTY);
+    let (kept, rejected, bounds, radii, weights) = (0..count)
+        .into_par_iter()
+        .fold(nothing, |(mut kept, mut rejected, bounds, radii, weights), row| {
+            let raw = particle(row);
+            let finite = raw.position.iter().all(|x| x.is_finite()) && raw.volume.is_finite();
+            if !finite {
+                rejected.non_finite += 1;
+                return (kept, rejected, bounds, radii, weights);
+            }
+            if !(raw.support_radius.is_finite() && raw.support_radius > 0.0) {
+                rejected.bad_radius += 1;
+                return (kept, rejected, bounds, radii, weights);
+            }
+            kept.push(row as u32);
+            let point = DVec3::from_array(raw.position);
+            let here = Bounds { min: point, max: point };
+            let bounds = Some(bounds.map_or(here, |all| all.union(&here)));
+            let h = raw.support_radius;
+            let weight = weight_of(&raw);
+            (kept, rejected, bounds, join(radii, [h, h]), join(weights, [weight, weight]))
+        })
+        .reduce(nothing, |mut a, b| {
+            a.0.extend(b.0);
+            a.1.non_finite += b.1.non_finite;
+            a.1.bad_radius += b.1.bad_radius;
+            let bounds = match (a.2, b.2) {
+                (Some(x), Some(y)) => Some(x.union(&y)),
+                (x, y) => x.or(y),
+            };
+            (a.0, a.1, bounds, join(a.3, b.3), join(a.4, b.4))
+        });
+    let radii = if kept.is_empty() { [0.0; 2] } else { radii };
+    Verdicts { kept, rejected, bounds, radii, weights }
+}
+
+/// ln(V/h³): logarithms, since h³ of a run in metres of the cosmos overflows.
+fn weight_of(raw: &RawParticle) -> f64 {
+    raw.volume.max(f64::MIN_POSITIVE).ln() - 3.0 * raw.support_radius.ln()
+}
+
+/// The middle of two logarithms.
+fn geometric_mean([low, high]: [f64; 2]) -> f64 {
+    if low <= high { 0.5 * (low + high) } else { 0.0 }
+}
+
+/// The power of two nearest below `length`.
+fn power_of_two(length: f64) -> f64 {
+    length.log2().floor().exp2()
+}

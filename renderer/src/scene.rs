@@ -1,0 +1,62 @@
+//! A scene: particles, their quantity, and a view with nothing left open.
+
+use std::sync::Arc;
+
+use crate::camera::Camera;
+use crate::kernel::Kernel;
+use crate::particles::{ParticleSet, Quantity};
+use crate::transfer::TransferFunction;
+use crate::view::{View, ViewError};
+
+/// Everything the renderer needs for one picture.
+#[derive(Clone)]
+pub struct Scene {
+    pub particles: Arc<ParticleSet>,
+    pub quantity: Arc<Quantity>,
+    pub camera: Camera,
+    /// Pixels.
+    pub width: u32,
+    pub height: u32,
+    pub kernel: Kernel,
+    pub transfer: TransferFunction,
+    /// In the unit of the run.
+    pub reference_length: f64,
+    /// Slices per pixel size.
+    pub rate: f64,
+}
+
+impl Scene {
+    /// Checks `view` and settles what it leaves open: camera, near and far, reference length.
+    pub fn new(
+        particles: Arc<ParticleSet>,
+        quantity: Arc<Quantity>,
+        view: &View,
+    ) -> Result<Scene, ViewError> {
+        view.validate()?;
+        let aspect = f64::from(view.image.width) / f64::from(view.image.height);
+        let margin = particles.support_radii()[1];
+        let camera = view.camera.unwrap_or_else(|| Camera::overview(particles.bounds(), margin, aspect));
+        let camera = Camera::new(&camera, &particles, &quantity);
+        let reference_length =
+            view.transfer.reference_length.unwrap_or_else(|| default_reference_length(&particles));
+        Ok(Scene {
+            camera,
+            width: view.image.width,
+            height: view.image.height,
+            kernel: view.particles.kernel,
+            transfer: TransferFunction::new(&view.transfer.points)?,
+            reference_length,
+            rate: view.sampling.rate,
+            particles,
+            quantity,
+        })
+    }
+}
+
+/// A thirtieth of the diagonal of the particles' supports; 1 without particles.
+pub fn default_reference_length(particles: &ParticleSet) -> f64 {
+    match particles.bounds() {
+        Some(bounds) => (bounds.diagonal() + 2.0 * particles.support_radii()[1]) / 30.0,
+        None => 1.0,
+    }
+}

@@ -1,0 +1,257 @@
+//! `View`: everything that defines a picture, as `view.json` holds it (contract, section 2).
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::kernel::Kernel;
+use crate::transfer::{ControlPoint, TransferFunction};
+
+/// The settings of a picture. Every key of the file is optional; unknown keys are errors.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct View {
+    /// Without one, the whole run is in view.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraView>,
+    pub image: ImageView,
+    pub quantity: QuantityView,
+    pub particles: ParticleView,
+    pub transfer: TransferView,
+    pub sampling: SamplingView,
+}
+
+/// Perspective camera. Lengths in the unit of the run, world space right-handed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraView {
+    pub eye: DVec3,
+    pub target: DVec3,
+    #[serde(default = "default_up")]
+    pub up: DVec3,
+    /// Vertical field of view in degrees, in (0, 180).
+    #[serde(default = "default_fov")]
+    pub fov_y_degrees: f64,
+    /// View depth where the slices begin; fitted to the particles where it is absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near: Option<f64>,
+    /// View depth where the slices end; fitted to the particles where it is absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub far: Option<f64>,
+}
+
+fn default_up() -> DVec3 {
+    DVec3::Y
+}
+
+fn default_fov() -> f64 {
+    45.0
+}
+
+/// Size in pixels, and the linear-light colour behind the fluid (none: transparent).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ImageView {
+    pub width: u32,
+    pub height: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub background: Option<[f32; 3]>,
+}
+
+impl ImageView {
+    /// The largest side of a picture, in pixels.
+    pub const MAX_SIDE: u32 = 32_768;
+}
+
+impl Default for ImageView {
+    fn default() -> Self {
+        ImageView { width: 512, height: 512, background: None }
+    }
+}
+
+/// Which field is shown, and which of its values are u = 0 and u = 1 of the transfer function.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QuantityView {
+    /// A field's name, `field.x` for a component; the first scalar field where it is absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// The finite extremes over the frame where it is absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+}
+
+/// How particles become a continuous field.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ParticleView {
+    /// Radius at which the kernel reaches zero, one for all particles, in the unit of the run; the
+    /// file's own, or an estimate from the particle spacing, where it is absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support_radius: Option<f64>,
+    pub kernel: Kernel,
+}
+
+/// The transfer function; without a reference length, a thirtieth of the run's diagonal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TransferView {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference_length: Option<f64>,
+    pub points: Vec<ControlPoint>,
+}
+
+impl Default for TransferView {
+    fn default() -> Self {
+        let point = |u, rgb, opacity| ControlPoint { u, rgb, opacity };
+        TransferView {
+            reference_length: None,
+            // Blue over grey to red in linear light, with the middle thin so that both ends show.
+            points: vec![
+                point(0.0, [0.03, 0.10, 0.53], 0.20),
+                point(0.25, [0.18, 0.40, 0.80], 0.06),
+                point(0.5, [0.70, 0.70, 0.68], 0.03),
+                point(0.75, [0.85, 0.35, 0.15], 0.08),
+                point(1.0, [0.60, 0.02, 0.03], 0.30),
+            ],
+        }
+    }
+}
+
+/// How finely the volume is sampled, and how much of that may be saved.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SamplingView {
+    /// E_I: the largest error of any channel of any pixel against full sampling; `null` for full sampling.
+    pub tolerance: Option<f64>,
+    /// E_relax in [0, 1]; 0 is a guarantee.
+    pub relaxation: f64,
+    /// Slices per pixel size along the ray, 1 unless asked otherwise.
+    pub rate: f64,
+    pub z_adaptive: bool,
+    pub super_pixels: bool,
+}
+
+impl Default for SamplingView {
+    fn default() -> Self {
+        SamplingView {
+            tolerance: Some(0.004),
+            relaxation: 0.0,
+            rate: 1.0,
+            z_adaptive: true,
+            super_pixels: true,
+        }
+    }
+}
+
+/// A setting outside its range, by its key in `view.json`.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{key}: {what}")]
+pub struct ViewError {
+    pub key: &'static str,
+    pub what: String,
+}
+
+impl ViewError {
+    pub(crate) fn new(key: &'static str, what: impl Into<String>) -> Self {
+        ViewError { key, what: what.into() }
+    }
+}
+
+impl View {
+    /// Reads `view.json`; errors name the key, or line and column where it is not JSON.
+    pub fn from_json(text: &str) -> Result<View, serde_json::Error> {
+        serde_json::from_str(text)
+    }
+
+    /// The file's text, indented.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a view has only string keys")
+    }
+
+    /// Checks every setting's range.
+    pub fn validate(&self) -> Result<(), ViewError> {
+        if let Some(camera) = &self.camera {
+            camera.validate()?;
+        }
+        self.image.validate()?;
+        if let Some([low, high]) = self.quantity.range {
+            check(low.is_finite() && high.is_finite() && low <= high, "quantity.range", || {
+                format!("[{low}, {high}] is not an ascending pair of finite numbers")
+            })?;
+        }
+        if let Some(h) = self.particles.support_radius {
+            check(positive(h), "particles.support_radius", || format!("{h} is not a positive length"))?;
+        }
+        self.sampling.validate()?;
+        if let Some(length) = self.transfer.reference_length {
+            check(positive(length), "transfer.reference_length", || {
+                format!("{length} is not a positive length")
+            })?;
+        }
+        TransferFunction::new(&self.transfer.points).map(drop)
+    }
+}
+
+impl CameraView {
+    fn validate(&self) -> Result<(), ViewError> {
+        check(self.eye.is_finite(), "camera.eye", || "is not finite".into())?;
+        check(self.target.is_finite(), "camera.target", || "is not finite".into())?;
+        check(self.up.is_finite(), "camera.up", || "is not finite".into())?;
+        let forward = (self.target - self.eye).try_normalize();
+        let Some(forward) = forward else {
+            return Err(ViewError::new("camera.target", "is the same point as camera.eye"));
+        };
+        let up = self.up.try_normalize().unwrap_or(DVec3::ZERO);
+        check(forward.cross(up).length() > 1e-9, "camera.up", || {
+            "is zero or parallel to the viewing direction".into()
+        })?;
+        check(self.fov_y_degrees > 0.0 && self.fov_y_degrees < 180.0, "camera.fov_y_degrees", || {
+            format!("{} is not between 0 and 180", self.fov_y_degrees)
+        })?;
+        if let Some(near) = self.near {
+            check(positive(near), "camera.near", || format!("{near} is not a positive length"))?;
+        }
+        if let Some(far) = self.far {
+            let near = self.near.unwrap_or(0.0);
+            check(far.is_finite() && far > near, "camera.far", || {
+                format!("{far} is not a finite length beyond camera.near")
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl ImageView {
+    fn validate(&self) -> Result<(), ViewError> {
+        let side = |pixels: u32| (1..=ImageView::MAX_SIDE).contains(&pixels);
+        let what = |pixels: u32| format!("{pixels} is not between 1 and {}", ImageView::MAX_SIDE);
+        check(side(self.width), "image.width", || what(self.width))?;
+        check(side(self.height), "image.height", || what(self.height))?;
+        let channels = self.background.unwrap_or_default();
+        check(channels.iter().all(|c| (0.0..=1.0).contains(c)), "image.background", || {
+            format!("{channels:?} is not three numbers between 0 and 1")
+        })
+    }
+}
+
+impl SamplingView {
+    fn validate(&self) -> Result<(), ViewError> {
+        if let Some(e) = self.tolerance {
+            check((0.0..=1.0).contains(&e), "sampling.tolerance", || format!("{e} is not between 0 and 1"))?;
+        }
+        check((0.0..=1.0).contains(&self.relaxation), "sampling.relaxation", || {
+            format!("{} is not between 0 and 1", self.relaxation)
+        })?;
+        check(self.rate > 0.0 && self.rate <= 64.0, "sampling.rate", || {
+            format!("{} is not between 0 and 64", self.rate)
+        })
+    }
+}
+
+fn positive(length: f64) -> bool {
+    length.is_finite() && length > 0.0
+}
+
+fn check(holds: bool, key: &'static str, what: impl FnOnce() -> String) -> Result<(), ViewError> {
+    if holds { Ok(()) } else { Err(ViewError::new(key, what())) }
+}
