@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use renderer::{ParticleSet, Quantity, QuantityView, RawParticle};
+use renderer::{ParticleSet, Quantity, QuantityView, RawParticle, Rejected};
 
 use crate::frames::{Column, Field, Frame, median_spacing, names};
 
@@ -124,6 +124,24 @@ pub fn particles(frame: &Frame, support_radius: Option<f64>) -> Result<ParticleS
 pub fn quantity(frame: &Frame, particles: &ParticleSet, view: &QuantityView) -> Result<Quantity, SceneError> {
     let selection = Selection::new(frame, view.name.as_deref())?;
     Ok(Quantity::new(particles, view.range, |row| selection.value(row)))
+}
+
+/// One line on the particles of a frame that are left out of its picture; `None` where all are in it.
+pub fn rejected_warning(frame: &Frame, particles: &ParticleSet, quantity: &Quantity) -> Option<String> {
+    let Rejected { non_finite, bad_radius } = particles.rejected();
+    let reasons = [
+        (non_finite, "position or volume not finite"),
+        (bad_radius, "support radius not positive and finite"),
+        (quantity.rejected(), "quantity not finite"),
+    ];
+    let left_out: u64 = reasons.iter().map(|(count, _)| count).sum();
+    let told: Vec<String> = reasons
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, reason)| format!("{reason} ({count})"))
+        .collect();
+    (left_out > 0)
+        .then(|| format!("{left_out} of {} particles are left out: {}", frame.len(), told.join(", ")))
 }
 
 /// A scalar over the particles of a frame: a field, a component of one, or the length of its vectors.

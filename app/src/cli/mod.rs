@@ -5,6 +5,8 @@ mod info;
 mod interrupt;
 mod output;
 mod render;
+mod survey;
+mod timed;
 mod view;
 
 use std::ffi::OsString;
@@ -91,7 +93,8 @@ impl SequenceArguments {
         let Some(range) = &self.frames else {
             return Ok(Run { sequence, first: 0 });
         };
-        let range = range.within(sequence.len()).map_err(|what| WrongArguments(format!("--frames: {what}")))?;
+        let range =
+            range.within(sequence.len()).map_err(|what| WrongArguments(format!("--frames: {what}")))?;
         sequence.select(range.clone());
         Ok(Run { sequence, first: range.start })
     }

@@ -14,3 +14,7 @@ pub fn frame(_index: usize) -> anyhow::Result<Frame> {
     let positions = Column::new(3, Vec::<f32>::new()).expect("no rows");
     Ok(Frame::new(positions, Vec::new(), Metadata::default())?)
 }
+
+pub fn view() -> renderer::View {
+    renderer::View::default()
+}

@@ -260,10 +260,14 @@ impl State {
         }
     }
 
-    /// Bytes that frame `index` takes once it is read: known, or as many as the nearest frame that was read.
+    /// Bytes that frame `index` takes once it is read: known, or as many as the nearest frame that
+    /// was read. Frames larger than the budget are the exception as long as others are not.
     fn expected(&self, index: usize) -> Option<usize> {
+        if let Some(bytes) = self.slots[index].bytes {
+            return Some(bytes);
+        }
         let known = self.slots.iter().enumerate().filter_map(|(i, slot)| Some((i, slot.bytes?)));
-        known.min_by_key(|(i, _)| i.abs_diff(index)).map(|(_, bytes)| bytes)
+        known.min_by_key(|(i, bytes)| (*bytes > self.budget, i.abs_diff(index))).map(|(_, bytes)| bytes)
     }
 
     /// The frame to read next, if there is room for one more.

@@ -2,23 +2,22 @@
 //! what is wrong and where.
 
 mod error;
+pub mod pvd;
+mod vtk_cells;
+pub mod vtk_legacy;
+mod vtk_numbers;
+pub mod vtk_xml;
 
 pub use error::ReadError;
 
 /// Reads the frame in a file.
 pub fn read(path: &std::path::Path) -> Result<super::Frame, ReadError> {
-    Err(error::Fault::new("there is no reader for this format").in_file(path))
-}
-
-pub mod pvd {
-    pub use super::error::Fault;
-
-    pub struct Entry {
-        pub time: f64,
-        pub file: String,
-    }
-
-    pub fn parse(_bytes: &[u8]) -> Result<Vec<Entry>, Fault> {
-        Err(Fault::new("there is no reader for this format"))
-    }
+    let bytes =
+        std::fs::read(path).map_err(|error| error::Fault::new(error.to_string()).in_file(path))?;
+    let frame = match path.extension().and_then(|e| e.to_str()) {
+        Some("vtk") => vtk_legacy::parse(&bytes),
+        Some("vtu" | "vtp") => vtk_xml::parse(&bytes),
+        _ => Err(error::Fault::new("there is no reader for this format")),
+    };
+    frame.map_err(|fault| fault.in_file(path))
 }
