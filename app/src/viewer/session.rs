@@ -100,6 +100,10 @@ impl Session {
     /// Shows another run, from its first frame on. Keeps what is not about the run itself.
     pub fn open(&mut self, run: Run) {
         let first = self.run.is_none();
+        if run.stream.len() > 1 && self.range_source == RangeSource::Frame {
+            // Colours that jump from frame to frame hide what changes.
+            self.range_source = RangeSource::Seen;
+        }
         self.playback = self.playback.restarted(run.stream.len());
         self.log(format!("opened {} frames={}", run.title, run.stream.len()));
         self.run = Some(run);

@@ -112,6 +112,7 @@ fn track(ui: &mut Ui, session: &mut Session) {
         return;
     }
     let rect = Rect::from_center_size(outer.center(), vec2(outer.width() - 12.0, TRACK_HEIGHT));
+    widgets::Areas::mark(ui, "timeline", rect);
     let track = Track { rect, count };
     if let Some(cursor) = response.interact_pointer_pos()
         && (response.dragged() || response.clicked())
