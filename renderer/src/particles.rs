@@ -269,10 +269,10 @@ fn next_id() -> u64 {
 }
 
 /// Finite minimum and maximum; [0, 1] where nothing is finite.
-fn finite_range(count: usize, value: impl Fn(usize) -> f64 + Sync) -> [f64; 2] {
+fn finite_range(count: usize, value: impl Fn(usize) -> f64 + Sync + Send) -> [f64; 2] {
     let [low, high] = (0..count)
         .into_par_iter()
-        .map(|index| value(index))
+        .map(value)
         .filter(|q| q.is_finite())
         .fold(|| EMPTY, |[low, high], q| [low.min(q), high.max(q)])
         .reduce(|| EMPTY, join);

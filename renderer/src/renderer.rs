@@ -404,9 +404,15 @@ impl Picture {
         self.pixels.par_chunks_mut(width).skip(first_y).take(rows).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.iter_mut().skip(first_x).take(columns).enumerate() {
                 let bundle = (y / side) * tile.count[0] as usize + x / side;
-                let [r, g, b, transparency] = pixels[bundle * 64 + (y % side) * side + x % side];
+                let [r, g, b, transparency] = pixels[bundle * 64 + lane_of(x % side, y % side)];
                 *pixel = [r, g, b, 1.0 - transparency];
             }
         });
     }
+}
+
+/// Lane of a pixel inside its bundle: a Morton curve, as `place_in_bundle` of `cast.wgsl`.
+fn lane_of(x: usize, y: usize) -> usize {
+    let spread = |i: usize| (i & 1) | (i & 2) << 1 | (i & 4) << 2;
+    spread(x) | spread(y) << 1
 }

@@ -49,6 +49,14 @@ struct Ray {
     transparency: f32,
 }
 
+// Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact
+// block of pixels and mostly meet the same particles. (Picture::place undoes this.)
+fn place_in_bundle(lane: u32) -> vec2<u32> {
+    let x = (lane & 1u) | (lane >> 1u & 2u) | (lane >> 2u & 4u);
+    let y = (lane >> 1u & 1u) | (lane >> 2u & 2u) | (lane >> 3u & 4u);
+    return vec2(x, y);
+}
+
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
 // `reference`, a value of the cell: where all particles have the same one, the sum is exact.
 fn load_particle(place: u32, lane: u32, middle: vec3<f32>, reference: f32) {
@@ -215,7 +223,7 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     }
     let bundle = tile.first + vec2(index % tile.count.x, index / tile.count.x);
     let corner = vec2<f32>(bundle * BUNDLE_SIDE);
-    let in_bundle = vec2<f32>(vec2(lane % BUNDLE_SIDE, lane / BUNDLE_SIDE));
+    let in_bundle = vec2<f32>(place_in_bundle(lane));
     let axis = ray_slope(frame, corner + 3.5);
     // Exact: half pixels times the pitch.
     let from_axis = vec2(in_bundle.x - 3.5, 3.5 - in_bundle.y) * frame.pitch;
