@@ -3,6 +3,7 @@
 mod camera;
 mod error;
 mod gpu;
+mod inspect;
 mod kernel;
 mod pace;
 mod particles;
@@ -10,14 +11,17 @@ mod picture;
 mod plan;
 mod renderer;
 mod scene;
+mod selection;
 mod stages;
 mod stats;
+mod tiles;
 mod transfer;
 mod view;
 
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
 pub use error::{GpuError, RenderError};
 pub use gpu::{Gpu, GpuOptions};
+pub use inspect::GridCell;
 pub use kernel::Kernel;
 pub use particles::{Bounds, ParticleSet, Quantity, RawParticle, Rejected};
 pub use picture::Picture;

@@ -171,18 +171,26 @@ impl ParticleSet {
         skip: impl Fn(usize) -> bool + Sync,
     ) -> Option<[f64; 2]> {
         let eye = self.to_device(eye);
-        let [near, far] = (0..self.len())
-            .into_par_iter()
-            .filter(|&index| !skip(index))
-            .map(|index| {
-                let [x, y, z, radius] = self.high[index].map(f64::from);
-                let [dx, dy, dz, _] = self.low[index].map(f64::from);
-                let depth = (DVec3::new(x + dx, y + dy, z + dz) - eye).dot(forward);
+        let [near, far] = self
+            .balls()
+            .enumerate()
+            .filter(|(index, _)| !skip(*index))
+            .map(|(_, (position, radius))| {
+                let depth = (position - eye).dot(forward);
                 [depth - radius, depth + radius]
             })
             .filter(|[_, farthest]| *farthest > 0.0)
             .reduce(|| EMPTY, join);
         (near <= far).then_some([near * self.unit, far * self.unit])
+    }
+
+    /// Position, in device units, and support radius of every kept particle.
+    pub(crate) fn balls(&self) -> impl IndexedParallelIterator<Item = (DVec3, f64)> + '_ {
+        self.high.par_iter().zip(&self.low).map(|(high, low)| {
+            let [x, y, z, radius] = high.map(f64::from);
+            let [dx, dy, dz, _] = low.map(f64::from);
+            (DVec3::new(x + dx, y + dy, z + dz), radius)
+        })
     }
 
     /// Length of the device's unit in the unit of the run, a power of two.

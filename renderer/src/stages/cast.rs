@@ -122,3 +122,15 @@ impl Cast {
         self.pixels.bytes() + self.layer_depth.bytes()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::layout::check_layout;
+
+    #[test]
+    fn chunks_lie_as_the_shader_expects() {
+        let source = [FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")].concat();
+        check_layout!(&source, "Chunk", Chunk, first_bundle, end_bundle, padding);
+    }
+}

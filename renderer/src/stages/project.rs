@@ -30,10 +30,9 @@ impl Project {
         pass: &mut wgpu::ComputePass,
         frame: &Buffer,
         store: &ParticleStore,
-        particles: u64,
     ) {
         let buffers =
             [frame.raw(), store.high.raw(), store.low.raw(), store.projected.raw(), store.weights.raw()];
-        self.pipeline.dispatch(gpu, pass, &buffers, particles.div_ceil(256));
+        self.pipeline.dispatch(gpu, pass, &buffers, store.count().div_ceil(256));
     }
 }

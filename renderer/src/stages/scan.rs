@@ -95,6 +95,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn levels_lie_as_the_shader_expects() {
+        let source = [crate::stages::shared::FRAME_WGSL, include_str!("scan.wgsl")].concat();
+        crate::stages::layout::check_layout!(&source, "Level", Level, begin, next, length, count_cells);
+    }
+
+    #[test]
     fn levels_shrink_to_one_block() {
         assert_eq!(levels(1).len(), 1);
         assert_eq!(levels(2048).len(), 1);

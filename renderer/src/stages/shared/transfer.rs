@@ -93,6 +93,16 @@ mod tests {
     }
 
     #[test]
+    fn nodes_lie_as_the_shader_expects() {
+        // The file alone lacks the bindings that each stage declares.
+        let source = format!(
+            "var<private> nodes: array<Node, 2>; var<private> buckets: array<u32, 2>;\n{}",
+            crate::stages::shared::TRANSFER_WGSL
+        );
+        crate::stages::layout::check_layout!(&source, "Node", Node, value, change, u, inverse_width, padding);
+    }
+
+    #[test]
     fn tables_hold_the_function_itself() {
         let point = |u, v: f32| ControlPoint { u, rgb: [v, 1.0 - v, 0.5 * v], opacity: v };
         let shapes: [&[ControlPoint]; 4] = [
