@@ -22,12 +22,12 @@ struct Chunk {
 @group(0) @binding(7) var<storage, read> pairs: array<u32>;
 // Depth of the middle of each layer of cells.
 @group(0) @binding(8) var<storage, read> layer_depth: array<f32>;
-@group(0) @binding(9) var<storage, read> nodes: array<Node>;
-@group(0) @binding(10) var<storage, read> buckets: array<u32>;
+@group(0) @binding(9) var<storage, read> buckets: array<u32>;
 // Premultiplied linear RGB and transparency, 64 pixels a bundle.
-@group(0) @binding(11) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> pixels: array<vec4<f32>>;
 // Evaluations and those with a weight above zero: low and high words.
-@group(0) @binding(12) var<storage, read_write> counters: array<atomic<u32>, 4>;
+@group(0) @binding(11) var<storage, read_write> counters: array<atomic<u32>, 4>;
+@group(0) @binding(12) var nodes: texture_2d<f32>;
 
 override COUNT_INSIDE: bool = false;
 

@@ -31,8 +31,7 @@ impl Project {
         frame: &Buffer,
         store: &ParticleStore,
     ) {
-        let buffers =
-            [frame.raw(), store.high.raw(), store.low.raw(), store.projected.raw(), store.weights.raw()];
+        let buffers = [frame, &store.high, &store.low, &store.projected, &store.weights].map(Buffer::binding);
         self.pipeline.dispatch(gpu, pass, &buffers, store.count().div_ceil(256));
     }
 }

@@ -64,12 +64,12 @@ impl Scan {
         for (level, uniform) in levels.iter().zip(&mut self.levels) {
             uniform.write(gpu, std::slice::from_ref(level))?;
             let blocks = u64::from(level.length).div_ceil(BLOCK);
-            self.scan.dispatch(gpu, pass, &[uniform.raw(), sums.raw(), totals.raw()], blocks);
+            self.scan.dispatch(gpu, pass, &[uniform.binding(), sums.binding(), totals.binding()], blocks);
         }
         // The topmost level is a single block, complete in itself.
         for (level, uniform) in levels.iter().zip(&self.levels).rev().skip(1) {
             let blocks = u64::from(level.length).div_ceil(BLOCK);
-            self.add.dispatch(gpu, pass, &[uniform.raw(), sums.raw(), totals.raw()], blocks);
+            self.add.dispatch(gpu, pass, &[uniform.binding(), sums.binding(), totals.binding()], blocks);
         }
         Ok(())
     }
