@@ -36,6 +36,11 @@ fn fixtures() -> Vec<(PathBuf, Vec<u8>)> {
     paths.into_iter().map(|path| (path.clone(), std::fs::read(path).unwrap())).collect()
 }
 
+/// Whether a fixture is one of those with an array of every type and role.
+fn is_of_types(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("types_"))
+}
+
 /// A frame from a table `id,x,y,z,vx,vy,vz,density,concentration` of the rows that `keep` wants.
 fn from_table(text: &str, keep: impl Fn(u32) -> bool) -> Frame {
     let mut ids = Vec::new();
@@ -101,14 +106,78 @@ fn difference(found: &Frame, expected: &Frame) -> Option<String> {
 fn all_variants_hold_the_same_frame() {
     let expected = from_table(include_str!("fixtures/vtk/expected.csv"), |_| true);
     assert_eq!(expected.len(), 756);
-    let fixtures = fixtures();
-    assert!(fixtures.len() >= 16, "fixtures are missing");
+    let mut fixtures = fixtures();
+    fixtures.retain(|(path, _)| !is_of_types(path));
+    assert_eq!(fixtures.len(), 16);
     for (path, bytes) in fixtures {
         let frame = read(&path, &bytes).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
         assert_eq!(difference(&frame, &expected), None, "{}", path.display());
         assert!(frame.warnings.is_empty(), "{}: {:?}", path.display(), frame.warnings);
         let timed = ["ascii.vtu", "raw_zlib_blocks_big_endian.vtu"].iter().any(|name| path.ends_with(name));
         assert_eq!(frame.metadata.time, timed.then_some(5.0 / 6.0), "{}", path.display());
+    }
+}
+
+/// Arrays of the `types_` fixtures of one component: their values repeat these four.
+const TYPES: [(&str, [f64; 4]); 13] = [
+    ("char", [-128.0, 127.0, -64.0, 63.0]),
+    ("uchar", [0.0, 255.0, 0.0, 127.0]),
+    ("short", [-32768.0, 32767.0, -16384.0, 16383.0]),
+    ("ushort", [0.0, 65535.0, 0.0, 32767.0]),
+    ("int", [-2147483648.0, 2147483647.0, -1073741824.0, 1073741823.0]),
+    ("uint", [0.0, 4294967295.0, 0.0, 2147483647.0]),
+    ("long", [-9007199254740992.0, 9007199254740992.0, -4503599627370496.0, 4503599627370496.0]),
+    ("ulong", [0.0, 9007199254740992.0, 0.0, 4503599627370496.0]),
+    ("longlong", [-9007199254740992.0, 9007199254740992.0, -4503599627370496.0, 4503599627370496.0]),
+    ("ulonglong", [0.0, 9007199254740992.0, 0.0, 4503599627370496.0]),
+    ("idtype", [-2147483648.0, 2147483647.0, -1073741824.0, 1073741823.0]),
+    ("float", [-0.5, 1.5, -0.25, 0.75]),
+    ("double", [-1.25e100, 0.125, -6.25e99, 0.0625]),
+];
+
+#[test]
+fn all_types_and_roles_are_read() {
+    let mut fixtures = fixtures();
+    fixtures.retain(|(path, _)| is_of_types(path));
+    assert_eq!(fixtures.len(), 7);
+    for (path, bytes) in fixtures {
+        let name = path.display();
+        let frame = read(&path, &bytes).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let column =
+            |field: &str| &frame.field(field).unwrap_or_else(|| panic!("{name}: no `{field}`")).column;
+        let positions =
+            (0..9).flat_map(|i| [f64::from(i) / 8.0, -0.25 * f64::from(i), f64::from(i) * 1024.0]);
+        let positions: Vec<f64> = positions.map(|x| x + 0.0).collect();
+        assert_eq!(different(frame.positions(), &Column::new(3, positions).unwrap()), None, "{name}");
+        for (field, values) in TYPES {
+            let values = (0..9).map(|i| values[i % 4]);
+            let expected = match field {
+                "float" => Column::scalars(values.map(|x| x as f32).collect::<Vec<f32>>()),
+                _ => Column::scalars(values.collect::<Vec<f64>>()),
+            };
+            assert_eq!(different(column(field), &expected), None, "{name}: {field}");
+        }
+        for (field, components, scale) in [
+            ("my scalars", 2, 1.0),
+            ("vec", 3, 2.0),
+            ("nrm", 3, 1.0),
+            ("ten", 9, 1.0),
+            ("tc", 2, 1.0),
+            ("gid", 1, 100.0),
+        ] {
+            assert_eq!(column(field).components(), components, "{name}: {field}");
+            let ends = [column(field).get(0, 0), column(field).get(8, components - 1)];
+            let last = [0.0, 1.0, 0.0, 0.5][(9 * components - 1) % 4];
+            assert_eq!(ends, [0.0, last * scale], "{name}: {field}");
+        }
+        let legacy = path.extension().is_some_and(|extension| extension == "vtk");
+        assert_eq!(frame.fields().len(), 19 + usize::from(legacy), "{name}");
+        if legacy {
+            let bits: Vec<f32> = (0..9u8).map(|i| f32::from((i * 7 % 3) & 1)).collect();
+            assert_eq!(different(column("bit"), &Column::scalars(bits)), None, "{name}");
+        }
+        assert_eq!(frame.metadata.time, Some(0.75), "{name}");
+        assert_eq!(frame.warnings.len(), 2, "{name}: {:?}", frame.warnings);
     }
 }
 

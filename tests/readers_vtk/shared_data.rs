@@ -119,9 +119,9 @@ fn files_of_other_programs_are_read() {
         let frame = load(folder.join(name)).unwrap_or_else(|why| panic!("{name}: {why}"));
         assert_eq!(frame.len(), particles, "{name}");
         assert!(frame.fields().iter().map(|field| field.name.as_str()).eq(fields.iter().copied()), "{name}");
-        for axis in 0..3 {
+        for (axis, least) in least.iter().enumerate() {
             let found = (0..particles).map(|i| frame.position(i)[axis]).fold(f64::INFINITY, f64::min);
-            assert!((found - least[axis]).abs() < 1e-3, "{name}: {found} on axis {axis}");
+            assert!((found - least).abs() < 1e-3, "{name}: {found} on axis {axis}");
         }
         let double = matches!(frame.positions().numbers(), Numbers::F64(_));
         assert_eq!(double, name.contains("_8_") || name.contains("_250_"), "{name}");
