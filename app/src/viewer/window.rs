@@ -132,7 +132,8 @@ impl Open {
             .with_inner_size(LogicalSize::new(1280.0, 800.0))
             .with_min_inner_size(LogicalSize::new(640.0, 420.0))
             .with_visible(false);
-        let window = events.create_window(attributes).map_err(|error| anyhow!("display: {NO_DISPLAY} ({error})"))?;
+        let window =
+            events.create_window(attributes).map_err(|error| anyhow!("display: {NO_DISPLAY} ({error})"))?;
         let window = Arc::new(window);
         let glass = Glass::new(events, &window, &proxy)?;
         let sender = proxy.clone();
@@ -152,7 +153,9 @@ impl Open {
                 return Ok(());
             }
             WindowEvent::Resized(size) => {
-                if let (Some(width), Some(height)) = (NonZeroU32::new(size.width), NonZeroU32::new(size.height)) {
+                if let (Some(width), Some(height)) =
+                    (NonZeroU32::new(size.width), NonZeroU32::new(size.height))
+                {
                     self.glass.painter.on_window_resized(ViewportId::ROOT, width, height);
                 }
                 self.window.request_redraw();
@@ -168,7 +171,10 @@ impl Open {
     fn redraw(&mut self, events: &ActiveEventLoop) -> anyhow::Result<()> {
         if self.glass.lost.load(Ordering::Relaxed) {
             self.glass = Glass::new(events, &self.window, &self.proxy)?;
-            self.desk.session.messages.warn("the window's graphics device was lost and has been opened again");
+            self.desk
+                .session
+                .messages
+                .warn("the window's graphics device was lost and has been opened again");
             self.desk.forget_textures();
         }
         let delay = self.glass.draw(&self.window, &mut self.desk);

@@ -76,7 +76,11 @@ fn background(ui: &mut Ui, session: &mut Session) {
     let background = &mut session.view.image.background;
     widgets::row(ui, "Background", |ui| {
         let mut solid = background.is_some();
-        if ui.checkbox(&mut solid, "").on_hover_text("Without one, the saved picture is transparent").changed() {
+        if ui
+            .checkbox(&mut solid, "")
+            .on_hover_text("Without one, the saved picture is transparent")
+            .changed()
+        {
             *background = solid.then_some([0.0; 3]);
         }
         match background {
