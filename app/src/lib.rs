@@ -4,3 +4,4 @@ pub mod cli;
 pub mod frames;
 pub mod image_file;
 pub mod scene;
+pub mod viewer;

@@ -159,7 +159,8 @@ impl std::fmt::Display for Info {
             writeln!(f, "                  {} have no finite position", self.non_finite_positions)?;
         }
         if let Some([low, high]) = self.bounding_box {
-            let corner = |corner: [f64; 3]| corner.map(|x| Number(x).to_string()).join(", ");
+            // Enough digits to tell the corners of a small run far from the origin apart.
+            let corner = |corner: [f64; 3]| corner.map(|x| digits(x, 9)).join(", ");
             writeln!(f, "  bounding box    ({}) to ({})", corner(low), corner(high))?;
         }
         if let Some(spacing) = self.spacing {
@@ -219,12 +220,17 @@ struct Number(f64);
 
 impl std::fmt::Display for Number {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // Rounded to six digits first: what is left prints without a tail.
-        let rounded: f64 = format!("{:.5e}", self.0).parse().unwrap_or(self.0);
-        match rounded.abs() {
-            0.0 | 1e-4..1e7 => write!(f, "{rounded}"),
-            _ => write!(f, "{rounded:e}"),
-        }
+        f.write_str(&digits(self.0, 6))
+    }
+}
+
+/// A number rounded to `count` significant digits.
+fn digits(number: f64, count: usize) -> String {
+    // Rounded first: what is left prints without a tail.
+    let rounded: f64 = format!("{number:.*e}", count - 1).parse().unwrap_or(number);
+    match rounded.abs() {
+        0.0 | 1e-4..1e7 => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
     }
 }
 

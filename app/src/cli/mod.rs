@@ -14,8 +14,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use renderer::GpuOptions;
 
 use crate::frames::{FrameRange, Sequence};
+use crate::viewer;
 
 pub use view::ViewArguments;
 
@@ -57,6 +59,9 @@ pub struct WindowArguments {
     pub view: ViewArguments,
     #[command(flatten)]
     pub device: DeviceArguments,
+    /// Write a line on standard error for each thing that happens
+    #[arg(long)]
+    pub log_events: bool,
 }
 
 /// Which device renders.
@@ -65,6 +70,12 @@ pub struct DeviceArguments {
     /// Graphics adapter to use: part of its name
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+}
+
+impl DeviceArguments {
+    fn options(&self) -> GpuOptions {
+        GpuOptions { adapter: self.adapter.clone(), memory: None }
+    }
 }
 
 /// The frames that a command works on.
@@ -133,6 +144,14 @@ fn one_line(error: &anyhow::Error) -> String {
     format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn open_window(_arguments: &WindowArguments) -> anyhow::Result<()> {
-    anyhow::bail!("sphcast: this build has no viewer")
+fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
+    let sequence = Sequence::open(&arguments.files)?;
+    let view = arguments.view.resolve(&sequence)?;
+    viewer::run(viewer::Options {
+        sequence,
+        view,
+        fixed_size: arguments.view.size.is_some() || arguments.view.view.is_some(),
+        gpu: arguments.device.options(),
+        log_events: arguments.log_events,
+    })
 }

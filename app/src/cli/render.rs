@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use renderer::{Gpu, GpuOptions, Picture, RenderError, Renderer, Scene, Stats, View};
+use renderer::{Gpu, Picture, RenderError, Renderer, Scene, Stats, View};
 
 use super::interrupt::Interrupt;
 use super::output::Output;
@@ -52,11 +52,8 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let view = arguments.view.resolve(&run.sequence)?;
     let output = Output::new(&arguments.out, run.sequence.len())?;
     output.prepare()?;
-    let options = GpuOptions { adapter: arguments.device.adapter.clone(), memory: None };
-    let gpu = Gpu::new(&options).with_context(|| match &options.adapter {
-        Some(_) => "--adapter",
-        None => "sphcast",
-    })?;
+    let asked = arguments.device.adapter.is_some();
+    let gpu = Gpu::new(&arguments.device.options()).context(if asked { "--adapter" } else { "sphcast" })?;
     let renderer = Renderer::new(gpu).context("sphcast")?;
 
     let sources: Vec<Arc<Timed>> = run.sequence.frame_sources().into_iter().map(Timed::new).collect();

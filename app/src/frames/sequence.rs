@@ -47,7 +47,7 @@ impl Sequence {
     pub fn open(arguments: &[PathBuf]) -> Result<Sequence, SequenceError> {
         let mut sequence = Sequence::default();
         if arguments.is_empty() {
-            sequence.add_demo();
+            sequence.add(Path::new("demo"))?;
         }
         let mut files = Vec::new();
         for argument in arguments {
@@ -103,7 +103,7 @@ impl Sequence {
         let text = argument.to_string_lossy();
         let error = |what: String| SequenceError { argument: text.clone().into_owned(), what };
         if text == "demo" {
-            self.add_demo();
+            self.add_demo().map_err(error)?;
         } else if let Some(scene) = text.strip_prefix("demo:") {
             let generated = Generated::parse(scene).map_err(error)?;
             self.push(text.to_string(), None, Origin::Generated(generated));
@@ -126,10 +126,12 @@ impl Sequence {
         self.sources.push(Arc::new(Source { name, time, origin }));
     }
 
-    fn add_demo(&mut self) {
-        for index in 0..demo::frame_count() {
-            self.push(format!("demo:{}", index + 1), Some(demo::time(index)), Origin::Demo(index));
+    fn add_demo(&mut self) -> Result<(), String> {
+        let times = demo::times().map_err(|error| format!("{error:#}"))?;
+        for (index, time) in times.into_iter().enumerate() {
+            self.push(format!("demo frame {index}"), Some(time), Origin::Demo(index));
         }
+        Ok(())
     }
 
     fn add_files(&mut self, mut files: Vec<PathBuf>) {
@@ -142,18 +144,17 @@ impl Sequence {
     /// The frames that a ParaView collection lists.
     fn add_collection(&mut self, path: &Path) -> Result<(), String> {
         let bytes = std::fs::read(path).map_err(|error| describe(&error))?;
-        let mut entries = readers::pvd::parse(&bytes).map_err(|fault| match fault.place {
+        let entries = readers::pvd::parse(&bytes).map_err(|fault| match fault.place {
             Some(place) => format!("{}: {place}", fault.what),
             None => fault.what,
         })?;
-        entries.sort_by(|a, b| a.time.total_cmp(&b.time));
         if entries.is_empty() {
             return Err("lists no frames".into());
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         for entry in entries {
             // `join` leaves an absolute path as it is.
-            let file = folder.join(&entry.file);
+            let file = folder.join(&entry.path);
             self.push(file.display().to_string(), Some(entry.time), Origin::File(file));
         }
         Ok(())

@@ -50,7 +50,9 @@ impl Question {
             bars: vec![0; BARS],
         };
         let Ok(selection) = Selection::new(&self.frame, self.quantity.as_deref()) else { return analysis };
-        let rows = || (0..self.frame.len()).into_par_iter().map(|row| selection.value(row)).filter(|q| q.is_finite());
+        let rows = || {
+            (0..self.frame.len()).into_par_iter().map(|row| selection.value(row)).filter(|q| q.is_finite())
+        };
         let [low, high] = rows()
             .fold(|| NOTHING, |[low, high], q| [low.min(q), high.max(q)])
             .reduce(|| NOTHING, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
@@ -66,10 +68,13 @@ impl Question {
         };
         analysis.bars = rows()
             .filter(|q| (low..=high).contains(q))
-            .fold(|| vec![0; BARS], |mut bars, q| {
-                bars[bar(q).min(BARS - 1)] += 1;
-                bars
-            })
+            .fold(
+                || vec![0; BARS],
+                |mut bars, q| {
+                    bars[bar(q).min(BARS - 1)] += 1;
+                    bars
+                },
+            )
             .reduce(|| vec![0; BARS], |a, b| a.into_iter().zip(b).map(|(a, b)| a + b).collect());
         analysis
     }

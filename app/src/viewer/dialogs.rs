@@ -61,7 +61,8 @@ impl Dialogs {
         let choice: Choice = match purpose {
             Purpose::OpenFiles => {
                 let dialog = dialog.set_title("Open particle files");
-                let files = dialog.add_filter("Particle files", &FRAMES).add_filter("All files", &["*"]).pick_files();
+                let files =
+                    dialog.add_filter("Particle files", &FRAMES).add_filter("All files", &["*"]).pick_files();
                 Box::pin(async move { many(files.await) })
             }
             Purpose::OpenFolder => {

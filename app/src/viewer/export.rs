@@ -34,8 +34,12 @@ impl Export {
         let (sender, result) = mpsc::channel();
         let share = Arc::new(AtomicU32::new(0));
         let cancelled = Arc::new(AtomicBool::new(false));
-        let export =
-            Export { path: path.clone(), share: Arc::clone(&share), cancelled: Arc::clone(&cancelled), result };
+        let export = Export {
+            path: path.clone(),
+            share: Arc::clone(&share),
+            cancelled: Arc::clone(&cancelled),
+            result,
+        };
         std::thread::spawn(move || {
             let mut progress = |done: f32| {
                 let thousandths = (done.clamp(0.0, 1.0) * 1000.0) as u32;

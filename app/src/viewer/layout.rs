@@ -64,7 +64,10 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
     let picture = desk.session.picture.as_ref();
     let mut parts = Vec::new();
     if desk.picture.flying {
-        parts.push(format!("Flying: W A S D Q E, drag to look, wheel for speed ({:.2})", desk.picture.speed()));
+        parts.push(format!(
+            "Flying: W A S D Q E, drag to look, wheel for speed ({:.2})",
+            desk.picture.speed()
+        ));
     }
     match (desk.busy(), picture) {
         (Some(text), _) => parts.push(text.to_owned()),

@@ -156,7 +156,8 @@ impl OrbitCamera {
     /// (from the picture's upper left corner; its centre where it is `None`) keeps its place.
     pub fn zoom(&mut self, factor: f64, cursor: Option<DVec2>, screen: Screen) {
         let [nearest, farthest] = DISTANCE_LIMITS.map(|share| share * self.scene_radius);
-        let distance = (self.distance * factor).clamp(nearest.min(self.distance), farthest.max(self.distance));
+        let distance =
+            (self.distance * factor).clamp(nearest.min(self.distance), farthest.max(self.distance));
         let lateral = cursor.map_or(DVec3::ZERO, |cursor| self.lateral(cursor, screen));
         self.target += lateral * (self.distance - distance);
         self.distance = distance;

@@ -73,12 +73,15 @@ impl PictureView {
         let Some(camera) = &mut session.camera else { return };
         let before = *camera;
         let screen = Screen { width: f64::from(rect.width()), height: f64::from(rect.height()) };
-        let cursor = |position: Pos2| DVec2::new(f64::from(position.x - rect.left()), f64::from(position.y - rect.top()));
+        let cursor = |position: Pos2| {
+            DVec2::new(f64::from(position.x - rect.left()), f64::from(position.y - rect.top()))
+        };
         let delta = response.drag_delta();
         let delta = DVec2::new(f64::from(delta.x), f64::from(delta.y));
         let modifiers = ui.input(|input| input.modifiers);
         let left = response.dragged_by(PointerButton::Primary);
-        let other = response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
+        let other =
+            response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
         match () {
             () if other || (left && modifiers.shift) => camera.pan(delta, screen),
             () if left && modifiers.command => camera.zoom((delta.y * 0.01).exp(), None, screen),
@@ -89,7 +92,9 @@ impl PictureView {
         if left || other {
             ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         }
-        if response.double_clicked() && let Some(position) = response.interact_pointer_pos() {
+        if response.double_clicked()
+            && let Some(position) = response.interact_pointer_pos()
+        {
             camera.centre_on(cursor(position), screen);
         }
         if let Some(position) = response.hover_pos() {

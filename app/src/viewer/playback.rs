@@ -92,7 +92,8 @@ impl Playback {
             let around = if forwards { index < self.index } else { index > self.index };
             (index, around)
         });
-        let found = next.take_while(|(_, around)| self.looping || !around).find(|(index, _)| readable(*index));
+        let found =
+            next.take_while(|(_, around)| self.looping || !around).find(|(index, _)| readable(*index));
         self.since = None;
         let Some((index, _)) = found else { return false };
         self.index = index;

@@ -266,16 +266,13 @@ impl Worker {
         let mut view = key.clone();
         view.image.width = key.image.width.div_ceil(divisor);
         view.image.height = key.image.height.div_ceil(divisor);
-        let (scene, facts) = self
-            .preparation
-            .scene(&job.frame, &view)
-            .map_err(|error| Stop::Failed(format!("{error:#}")))?;
+        let (scene, facts) =
+            self.preparation.scene(&job.frame, &view).map_err(|error| Stop::Failed(format!("{error:#}")))?;
         let begun = Instant::now();
         let picture = self.render(&scene, divisor, first)?;
         let pixels = f64::from(key.image.width) * f64::from(key.image.height);
         self.pace.learn(pixels, divisor, begun.elapsed().as_secs_f64() * 1e3);
-        self.last =
-            Some(Last { frame: Arc::clone(&job.frame), view: key.clone(), divisor, picture, facts });
+        self.last = Some(Last { frame: Arc::clone(&job.frame), view: key.clone(), divisor, picture, facts });
         self.show(job);
         Ok(())
     }

@@ -159,7 +159,9 @@ impl Open {
                 return Ok(());
             }
             WindowEvent::Resized(size) => {
-                if let (Some(width), Some(height)) = (NonZeroU32::new(size.width), NonZeroU32::new(size.height)) {
+                if let (Some(width), Some(height)) =
+                    (NonZeroU32::new(size.width), NonZeroU32::new(size.height))
+                {
                     self.glass.painter.on_window_resized(ViewportId::ROOT, width, height);
                 }
                 self.window.request_redraw();
@@ -175,7 +177,10 @@ impl Open {
     fn redraw(&mut self, events: &ActiveEventLoop) -> anyhow::Result<()> {
         if self.glass.lost.load(Ordering::Relaxed) {
             self.glass = Glass::new(events, &self.window, &self.proxy)?;
-            self.desk.session.messages.warn("the window's graphics device was lost and has been opened again");
+            self.desk
+                .session
+                .messages
+                .warn("the window's graphics device was lost and has been opened again");
             self.desk.forget_textures();
         }
         let delay = self.glass.draw(&self.window, &mut self.desk);

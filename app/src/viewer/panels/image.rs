@@ -31,7 +31,13 @@ pub fn show(ui: &mut Ui, session: &mut Session, legend: &mut bool, actions: &mut
             actions.push(Action::SavePicture);
         }
         let quick = widgets::wide_button(ui, "Save in folder", width);
-        if quick.on_hover_text(format!("Picture and view, in the folder where the program was started  ({})", keys(ui.ctx(), Action::QuickSave))).clicked() {
+        if quick
+            .on_hover_text(format!(
+                "Picture and view, in the folder where the program was started  ({})",
+                keys(ui.ctx(), Action::QuickSave)
+            ))
+            .clicked()
+        {
             actions.push(Action::QuickSave);
         }
     });
@@ -76,7 +82,11 @@ fn background(ui: &mut Ui, session: &mut Session) {
     let background = &mut session.view.image.background;
     widgets::row(ui, "Background", |ui| {
         let mut solid = background.is_some();
-        if ui.checkbox(&mut solid, "").on_hover_text("Without one, the saved picture is transparent").changed() {
+        if ui
+            .checkbox(&mut solid, "")
+            .on_hover_text("Without one, the saved picture is transparent")
+            .changed()
+        {
             *background = solid.then_some([0.0; 3]);
         }
         match background {

@@ -19,7 +19,8 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         if field.changed() {
             settings.support_radius = Some(radius);
         }
-        let hint = "One radius for all particles; otherwise what the file says, or an estimate from the spacing";
+        let hint =
+            "One radius for all particles; otherwise what the file says, or an estimate from the spacing";
         if ui.checkbox(&mut by_hand, "fixed").on_hover_text(hint).changed() {
             settings.support_radius = by_hand.then_some(radius);
         }
@@ -37,7 +38,11 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     });
     widgets::fact(ui, "Particles", widgets::count(facts.particles as u64));
     if smallest < largest {
-        widgets::fact(ui, "Support radii", format!("{} … {}", widgets::short(smallest), widgets::short(largest)));
+        widgets::fact(
+            ui,
+            "Support radii",
+            format!("{} … {}", widgets::short(smallest), widgets::short(largest)),
+        );
     }
     if facts.rejected.total() > 0 {
         widgets::fact(ui, "Left out", widgets::count(facts.rejected.total()));

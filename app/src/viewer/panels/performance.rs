@@ -38,7 +38,11 @@ pub fn show(ui: &mut Ui, session: &Session) {
         widgets::fact(ui, "Frames in memory", widgets::bytes(run.stream.bytes() as u64));
     }
     let software = session.adapter.as_ref().is_some_and(|(_, software)| *software);
-    widgets::fact(ui, "Backend", if software { format!("{}, on the CPU", stats.backend) } else { stats.backend.clone() });
+    widgets::fact(
+        ui,
+        "Backend",
+        if software { format!("{}, on the CPU", stats.backend) } else { stats.backend.clone() },
+    );
     ui.horizontal(|ui| {
         ui.label(RichText::new("Adapter").color(theme::MUTED));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

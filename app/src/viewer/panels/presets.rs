@@ -64,12 +64,7 @@ pub const PRESETS: [Preset; 6] = [
     Preset {
         name: "Solid above half",
         hint: "A step: nothing below the middle, opaque above it",
-        points: &[
-            (0.0, 0x6fa8dc, 0.0),
-            (0.5, 0x6fa8dc, 0.0),
-            (0.5, 0x6fa8dc, 0.9),
-            (1.0, 0xf3f6f9, 0.9),
-        ],
+        points: &[(0.0, 0x6fa8dc, 0.0), (0.5, 0x6fa8dc, 0.0), (0.5, 0x6fa8dc, 0.9), (1.0, 0xf3f6f9, 0.9)],
     },
 ];
 

@@ -15,15 +15,18 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     let label = shown.clone().unwrap_or_else(|| "none in this file".into());
     widgets::row(ui, "Field", |ui| {
         let width = ui.available_width();
-        egui::ComboBox::from_id_salt("quantity").width(width).selected_text(label).truncate().show_ui(ui, |ui| {
-            for name in names {
-                let chosen = shown.as_deref() == Some(name.as_str());
-                let text = describe(&name, &frame);
-                if ui.selectable_label(chosen, text).clicked() && !chosen {
-                    choose(session, name);
+        egui::ComboBox::from_id_salt("quantity").width(width).selected_text(label).truncate().show_ui(
+            ui,
+            |ui| {
+                for name in names {
+                    let chosen = shown.as_deref() == Some(name.as_str());
+                    let text = describe(&name, &frame);
+                    if ui.selectable_label(chosen, text).clicked() && !chosen {
+                        choose(session, name);
+                    }
                 }
-            }
-        });
+            },
+        );
     });
     range(ui, session);
 }

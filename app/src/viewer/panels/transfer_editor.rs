@@ -104,18 +104,22 @@ impl TransferEditor {
             self.held = None;
         }
         let hit = cursor.and_then(|cursor| axes.hit(points, cursor));
-        if response.double_clicked() && hit.is_none() && let Some(cursor) = cursor {
+        if response.double_clicked()
+            && hit.is_none()
+            && let Some(cursor) = cursor
+        {
             let (u, opacity) = axes.at(cursor);
             self.selected = Some(canvas::add_node(points, u, opacity));
         } else if response.clicked() {
             self.selected = hit;
         }
-        if response.secondary_clicked() && let Some(index) = hit {
+        if response.secondary_clicked()
+            && let Some(index) = hit
+        {
             self.remove(points, index);
         }
-        let delete = |input: &egui::InputState| {
-            input.key_pressed(Key::Delete) || input.key_pressed(Key::Backspace)
-        };
+        let delete =
+            |input: &egui::InputState| input.key_pressed(Key::Delete) || input.key_pressed(Key::Backspace);
         if let Some(index) = self.selected
             && !ui.ctx().egui_wants_keyboard_input()
             && ui.input(delete)
@@ -198,7 +202,8 @@ fn reference_length(ui: &mut Ui, session: &mut Session) {
         if ui.add(field).on_hover_text(hint).changed() {
             *length = Some(value);
         }
-        if ui.checkbox(&mut by_hand, "fixed").on_hover_text("Otherwise 1/30 of the run's diagonal").changed() {
+        if ui.checkbox(&mut by_hand, "fixed").on_hover_text("Otherwise 1/30 of the run's diagonal").changed()
+        {
             *length = by_hand.then_some(value);
         }
     });

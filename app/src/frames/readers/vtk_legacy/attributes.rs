@@ -17,6 +17,21 @@ pub(super) struct Head {
     colours: bool,
 }
 
+/// Keywords that announce an array.
+const ROLES: [&str; 11] = [
+    "SCALARS",
+    "COLOR_SCALARS",
+    "LOOKUP_TABLE",
+    "TEXTURE_COORDINATES",
+    "VECTORS",
+    "NORMALS",
+    "TENSORS",
+    "TENSORS6",
+    "GLOBAL_IDS",
+    "PEDIGREE_IDS",
+    "EDGE_FLAGS",
+];
+
 /// The head of the array that `keyword` announces for each of `rows` points or cells; `None` for a
 /// colour table, which is passed over.
 pub(super) fn head(
@@ -25,6 +40,10 @@ pub(super) fn head(
     start: usize,
     rows: usize,
 ) -> Result<Option<Head>, Fault> {
+    if !ROLES.contains(&keyword) {
+        let found = shown(keyword.as_bytes());
+        return Err(cursor.fault_at(start, format!("expected a section such as POINT_DATA, found {found}")));
+    }
     let (name, _) = cursor.word("the name of an array")?;
     let name = decoded(name);
     let (components, kind) = match keyword {
@@ -45,16 +64,11 @@ pub(super) fn head(
         "VECTORS" | "NORMALS" => (3, arrays::number_kind(cursor)?),
         "TENSORS" => (9, arrays::number_kind(cursor)?),
         "TENSORS6" => (6, arrays::number_kind(cursor)?),
-        "GLOBAL_IDS" | "PEDIGREE_IDS" | "EDGE_FLAGS" => {
+        // Identifiers and flags.
+        _ => {
             let element = arrays::element(cursor)?;
             cursor.end_of_line()?;
             return Ok(Some(Head { name, components: 1, rows, element, colours: false }));
-        }
-        _ => {
-            let found = shown(keyword.as_bytes());
-            return Err(
-                cursor.fault_at(start, format!("expected a section such as POINT_DATA, found {found}"))
-            );
         }
     };
     cursor.end_of_line()?;

@@ -34,7 +34,8 @@ fn header(cursor: &mut Cursor<'_>) -> Result<(), Fault> {
             return Err(cursor.fault_at(0, "expected a legacy VTK file, found XML (a .vtu or .vtp file?)"));
         }
         _ => {
-            let what = format!("expected `# vtk DataFile Version` and a number, found {}", shown(first));
+            let found = if first.is_empty() { "an empty line or file".into() } else { shown(first) };
+            let what = format!("expected `# vtk DataFile Version` and a number, found {found}");
             return Err(cursor.fault_at(0, what));
         }
     };

@@ -122,11 +122,10 @@ impl<'a, 'i> Array<'a, 'i> {
 
     /// The text of the element itself, without that of elements in it.
     fn text(&self) -> Cow<'a, str> {
-        let mut texts =
-            self.node.children().filter_map(|child| if child.is_text() { child.text() } else { None });
-        let texts_with_words =
-            texts.by_ref().filter(|text| !text.trim_ascii().is_empty()).collect::<Vec<_>>();
-        match texts_with_words.as_slice() {
+        let texts = self.node.children().filter(|child| child.is_text()).filter_map(|child| child.text());
+        // White space between child elements is text too.
+        let texts: Vec<&str> = texts.filter(|text| !text.trim_ascii().is_empty()).collect();
+        match texts.as_slice() {
             [one] => Cow::Borrowed(one),
             more => Cow::Owned(more.concat()),
         }

@@ -94,6 +94,7 @@ fn faults_name_the_array() {
 fn other_files_and_layouts_are_refused_by_name() {
     let sound = |attributes: &str| file(attributes, &piece(1, "0 1 2", ""));
     assert!(parse(sound("").as_bytes()).is_ok());
+    assert!(parse(format!("\u{feff}{}", sound("")).as_bytes()).is_ok());
     refused(&sound(r#"compressor="vtkLZMADataCompressor""#), &["vtkLZMADataCompressor", "compressor"]);
     refused(&sound(r#"header_type="UInt16""#), &["`UInt16`", "header_type"]);
     refused(&sound(r#"byte_order="PDP""#), &["`PDP`", "byte_order"]);
