@@ -90,7 +90,7 @@ impl Window {
         let number = number.lines().last().expect("a window").to_owned();
         window.tool(&["windowsize", "--sync", &number, "900", "600"]);
         window.tool(&["windowfocus", &number]);
-        window.wait_for("area picture 0 40 583");
+        window.wait_for("area timeline 16 550");
         window
     }
 
@@ -194,7 +194,7 @@ fn play_orbit_edit_and_save() {
     window.wait_for("picture frame=3");
     window.key("space");
     window.wait_for("paused");
-    let (_, before) = window.save(folder.path());
+    let (first, before) = window.save(folder.path());
 
     // Orbit with the mouse.
     window.drag("picture", [0.3, 0.5], [0.6, 0.4]);
@@ -216,6 +216,8 @@ fn play_orbit_edit_and_save() {
     assert!(added.is_some_and(|point| (point.opacity - 0.5).abs() < 0.1), "{:?}", after.transfer.points);
 
     same_as_rendered(folder.path(), &path);
+    let [first, second] = [&first, &path].map(|path| sphcast::image_file::read(path).unwrap());
+    assert_ne!(first, second, "another view is another picture");
 
     // Scrub to the end, and quit.
     window.point(&window.place("timeline", 0.99, 0.5));
@@ -236,10 +238,10 @@ fn play_orbit_edit_and_save() {
 /// A saved picture shows something, and is what the command line makes of the view saved with it.
 fn same_as_rendered(folder: &Path, picture: &Path) {
     let stem = picture.file_stem().unwrap().to_str().unwrap();
-    let number: usize = stem.split('-').nth(1).unwrap().parse().unwrap();
+    let number = stem.split('-').nth(1).unwrap();
     let out = folder.join("rendered.png");
     let status = Command::new(binary())
-        .args(["render", "demo", "--frames", &(number - 1).to_string(), "--view"])
+        .args(["render", "demo", "--frames", number, "--view"])
         .arg(picture.with_extension("json"))
         .arg("--out")
         .arg(&out)

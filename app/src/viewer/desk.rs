@@ -314,7 +314,7 @@ impl Desk {
 
     fn file_stem(&self) -> String {
         let index = self.session.frame().map_or(0, |(index, _)| *index);
-        format!("sphcast-{:04}", index + 1)
+        format!("sphcast-{index:04}")
     }
 
     /// Counts values for the histogram, one frame at a time.
