@@ -41,6 +41,21 @@ pub fn plain_view(width: u32, height: u32) -> View {
     view
 }
 
+/// A jittered lattice of 9³ particles over [−1, 1]³ with a smooth field from 0 to 1, half seen
+/// through in [`plain_view`] with the default transfer function.
+pub fn plain(seed: u64, width: u32, height: u32) -> Scene {
+    let mut random = Random::new(seed);
+    let field = |x: DVec3| 0.5 + 0.5 * (2.0 * x.x + 1.5 * x.y - x.z).sin();
+    let particles = lattice(&mut random, [9; 3], 0.3, 2.0)
+        .into_iter()
+        .map(|(position, support_radius)| {
+            let volume = random.between(0.5, 2.0);
+            Particle { position, support_radius, volume, quantity: field(position) }
+        })
+        .collect();
+    Scene { name: format!("plain {seed} {width}x{height}"), particles, view: plain_view(width, height) }
+}
+
 /// How the particles of a random scene lie in [−1, 1]³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -221,7 +236,7 @@ fn camera(random: &mut Random) -> CameraView {
 /// Ramps, steps, spikes, fully clear and fully opaque stretches.
 fn transfer(random: &mut Random) -> Vec<ControlPoint> {
     let clear_or_opaque = random.unit() < 0.3;
-    let mut point = |random: &mut Random, u: f64| ControlPoint {
+    let point = |random: &mut Random, u: f64| ControlPoint {
         u: u as f32,
         rgb: std::array::from_fn(|_| random.unit() as f32),
         opacity: match clear_or_opaque {
