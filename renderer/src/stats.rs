@@ -44,11 +44,15 @@ pub struct CellClasses {
 
 /// Kernel weights computed for one particle at one place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Evaluations {
     /// What full sampling of the same view computes.
     pub full: u64,
     /// What this picture computed.
     pub done: u64,
+    /// Those of `done` with a weight above zero; 0 unless the renderer counts them.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub inside: u64,
 }
 
 /// Device time where the adapter has timestamps, else host time.
@@ -62,4 +66,8 @@ pub struct Milliseconds {
     pub merge: f64,
     pub ray_cast: f64,
     pub total: f64,
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }

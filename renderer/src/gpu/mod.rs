@@ -1,32 +1,168 @@
-//! The device and what it can hold.
+//! The device: what it is, what it can hold, and what went wrong on it.
 
-use crate::error::GpuError;
+mod buffer;
+mod pipeline;
+mod timing;
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+pub(crate) use buffer::Buffer;
+pub(crate) use pipeline::{Access, Pipeline, PipelineDescription};
+pub(crate) use timing::Timing;
+
+use crate::error::{GpuError, RenderError};
 
 /// Which adapter to use, and how much of it.
 #[derive(Clone, Debug, Default)]
 pub struct GpuOptions {
     /// Part of the adapter's name, in any case; the fastest one where it is `None`.
     pub adapter: Option<String>,
-    /// Bytes of device memory that the renderer may take; a share of what the adapter allows where it is `None`.
+    /// Bytes of device memory that the grid of one tile may take; 1 GiB where it is `None`.
     pub memory: Option<u64>,
 }
 
+const DEFAULT_MEMORY: u64 = 1 << 30;
+
 /// An open device.
-pub struct Gpu {}
+pub struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    info: wgpu::AdapterInfo,
+    pub(crate) limits: wgpu::Limits,
+    pub(crate) timestamps: bool,
+    pub(crate) memory: u64,
+    failures: Arc<Mutex<Failures>>,
+}
+
+/// What the device's callbacks reported since the last check.
+#[derive(Default)]
+struct Failures {
+    lost: Option<String>,
+    out_of_memory: Option<String>,
+    other: Option<String>,
+}
 
 impl Gpu {
-    /// Opens an adapter for compute.
-    pub fn new(_options: &GpuOptions) -> Result<Gpu, GpuError> {
-        Err(GpuError::NoAdapter)
+    /// Opens an adapter for compute; the fastest one unless `options` names another.
+    pub fn new(options: &GpuOptions) -> Result<Gpu, GpuError> {
+        pollster::block_on(Gpu::open(options))
     }
 
-    /// The adapter's name.
+    async fn open(options: &GpuOptions) -> Result<Gpu, GpuError> {
+        let adapter = find_adapter(options.adapter.as_deref()).await?;
+        let info = adapter.get_info();
+        let limits = adapter.limits();
+        let timestamps = adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let required_features =
+            if timestamps { wgpu::Features::TIMESTAMP_QUERY } else { wgpu::Features::empty() };
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("renderer"),
+            required_features,
+            // All that the adapter has: buffers are as large as a binding may be.
+            required_limits: limits.clone(),
+            memory_hints: wgpu::MemoryHints::Performance,
+            ..Default::default()
+        };
+        let (device, queue) = adapter
+            .request_device(&descriptor)
+            .await
+            .map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+        let failures = Arc::new(Mutex::new(Failures::default()));
+        listen(&device, &failures);
+        let memory = options.memory.unwrap_or(DEFAULT_MEMORY);
+        Ok(Gpu { device, queue, info, limits, timestamps, memory, failures })
+    }
+
+    /// The adapter's name, as its driver gives it.
     pub fn adapter_name(&self) -> &str {
-        ""
+        &self.info.name
     }
 
-    /// Whether the adapter is a program on the CPU, and pictures take seconds rather than milliseconds.
-    pub fn is_software(&self) -> bool {
-        true
+    /// Graphics interface: vulkan, metal, dx12 or gl.
+    pub fn backend(&self) -> String {
+        self.info.backend.to_string().to_lowercase()
     }
+
+    /// Whether the adapter is a program on the CPU: pictures then take seconds rather than milliseconds.
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// The most bytes that one shader binding may see.
+    pub(crate) fn binding_limit(&self) -> u64 {
+        self.limits.max_storage_buffer_binding_size.min(self.limits.max_buffer_size)
+    }
+
+    /// Waits for all submitted work, then reports what failed since the last check.
+    pub(crate) fn wait(&self) -> Result<(), RenderError> {
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.check()?;
+        waited.map(drop).map_err(|error| RenderError::DeviceLost(error.to_string()))
+    }
+
+    /// Reports what failed since the last check.
+    pub(crate) fn check(&self) -> Result<(), RenderError> {
+        let mut failures = lock(&self.failures);
+        if let Some(reason) = &failures.lost {
+            return Err(RenderError::DeviceLost(reason.clone()));
+        }
+        if let Some(reason) = failures.out_of_memory.take() {
+            failures.other = None;
+            return Err(RenderError::OutOfMemory(reason));
+        }
+        match failures.other.take() {
+            Some(reason) => Err(RenderError::Device(reason)),
+            None => Ok(()),
+        }
+    }
+}
+
+async fn find_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
+    // OpenGL last, if at all: just asking for it makes some systems write warnings of their own.
+    match find_adapter_of(wgpu::Backends::PRIMARY, wanted).await {
+        Err(GpuError::NoAdapter) => find_adapter_of(wgpu::Backends::SECONDARY, wanted).await,
+        found => found,
+    }
+}
+
+async fn find_adapter_of(backends: wgpu::Backends, wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
+    let instance = wgpu::Instance::new(
+        wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() }
+            .with_env(),
+    );
+    let Some(wanted) = wanted else {
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        return instance.request_adapter(&options).await.map_err(|_| GpuError::NoAdapter);
+    };
+    let adapters = instance.enumerate_adapters(backends).await;
+    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let matches = |name: &String| name.to_lowercase().contains(&wanted.to_lowercase());
+    match names.iter().position(matches) {
+        Some(index) => Ok(adapters.into_iter().nth(index).expect("one adapter a name")),
+        None if names.is_empty() => Err(GpuError::NoAdapter),
+        None => Err(GpuError::NoSuchAdapter { wanted: wanted.to_owned(), found: names.join(", ") }),
+    }
+}
+
+/// Turns the device's callbacks, which would panic by default, into failures to be checked.
+fn listen(device: &wgpu::Device, failures: &Arc<Mutex<Failures>>) {
+    let on_lost = Arc::clone(failures);
+    device.set_device_lost_callback(move |_, reason| {
+        lock(&on_lost).lost.get_or_insert(reason);
+    });
+    let on_error = Arc::clone(failures);
+    device.on_uncaptured_error(Arc::new(move |error| {
+        let mut failures = lock(&on_error);
+        match error {
+            wgpu::Error::OutOfMemory { source } => failures.out_of_memory.get_or_insert(source.to_string()),
+            other => failures.other.get_or_insert(other.to_string()),
+        };
+    }));
+}
+
+fn lock(failures: &Mutex<Failures>) -> MutexGuard<'_, Failures> {
+    failures.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,0 +1,102 @@
+//! Device buffers that grow and never shrink.
+
+use bytemuck::{NoUninit, Pod};
+
+use super::Gpu;
+use crate::error::RenderError;
+
+/// A buffer of numbers of one size, with room for at least one.
+pub(crate) struct Buffer {
+    label: &'static str,
+    stride: u64,
+    usage: wgpu::BufferUsages,
+    buffer: wgpu::Buffer,
+}
+
+impl Buffer {
+    /// An array for shaders to read and write, `stride` bytes an element.
+    pub(crate) fn storage(gpu: &Gpu, label: &'static str, stride: u64) -> Buffer {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        Buffer { label, stride, usage, buffer: create(gpu, label, stride, usage) }
+    }
+
+    /// Constants of type `T`.
+    pub(crate) fn uniform<T>(gpu: &Gpu, label: &'static str) -> Buffer {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let stride = size_of::<T>() as u64;
+        Buffer { label, stride, usage, buffer: create(gpu, label, stride, usage) }
+    }
+
+    /// Makes room for `count` elements; contents are lost where the buffer grows.
+    pub(crate) fn reserve(&mut self, gpu: &Gpu, count: u64) -> Result<(), RenderError> {
+        let needed = count.max(1) * self.stride;
+        if needed <= self.buffer.size() {
+            return Ok(());
+        }
+        let limit = gpu.binding_limit();
+        if needed > limit {
+            return Err(RenderError::BufferLimit { what: self.label, needed, limit });
+        }
+        // The old memory goes before the new is taken: both may not fit side by side.
+        self.buffer.destroy();
+        self.buffer = create(gpu, self.label, needed, self.usage);
+        gpu.check()
+    }
+
+    /// Makes room for `values` and writes them.
+    pub(crate) fn write<T: NoUninit>(&mut self, gpu: &Gpu, values: &[T]) -> Result<(), RenderError> {
+        debug_assert_eq!(size_of_val(values) as u64 % self.stride, 0);
+        self.reserve(gpu, size_of_val(values) as u64 / self.stride)?;
+        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(values));
+        Ok(())
+    }
+
+    pub(crate) fn raw(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+
+    /// Number of elements there is room for.
+    pub(crate) fn capacity(&self) -> u64 {
+        self.buffer.size() / self.stride
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.buffer.size()
+    }
+}
+
+fn create(gpu: &Gpu, label: &'static str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: size.next_multiple_of(16),
+        usage,
+        mapped_at_creation: false,
+    })
+}
+
+/// A copy on its way to the host.
+pub(crate) struct Readback {
+    staging: wgpu::Buffer,
+}
+
+impl Buffer {
+    /// Records a copy of the first `count` elements for [`Readback::take`] after the submission.
+    pub(crate) fn read_back(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, count: u64) -> Readback {
+        let size = count * self.stride;
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let staging = create(gpu, "readback", size, usage);
+        encoder.copy_buffer_to_buffer(&self.buffer, 0, &staging, 0, size);
+        Readback { staging }
+    }
+}
+
+impl Readback {
+    /// Waits for the copy. May be called once the encoder was submitted.
+    pub(crate) fn take<T: Pod>(self, gpu: &Gpu) -> Result<Vec<T>, RenderError> {
+        self.staging.map_async(wgpu::MapMode::Read, .., |_| {});
+        gpu.wait()?;
+        let view =
+            self.staging.get_mapped_range(..).map_err(|error| RenderError::Device(error.to_string()))?;
+        Ok(bytemuck::pod_collect_to_vec(&view))
+    }
+}

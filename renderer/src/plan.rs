@@ -1,0 +1,137 @@
+//! How a picture is cut into tiles that fit the device. Pure: no device is touched here.
+
+use crate::camera::CELL_SLICES;
+
+/// A box of cells that is built and cast at once: bundles × layers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Tile {
+    /// First bundle in x and y, and number of bundles.
+    pub first: [u32; 2],
+    pub count: [u32; 2],
+    /// First layer of cells along the rays, and number of layers.
+    pub first_layer: u32,
+    pub layers: u32,
+}
+
+/// What one tile may need of the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TileLimits {
+    pub cells: u64,
+    pub bundles: u64,
+}
+
+/// Bytes of a bundle's 64 pixels.
+pub(crate) const BUNDLE_BYTES: u64 = 64 * 16;
+
+impl TileLimits {
+    /// Limits of a device whose bindings hold `binding` bytes, when the grid of a tile may take
+    /// `memory` bytes: a quarter for its counters and a quarter for its pixels.
+    pub(crate) fn new(binding: u64, memory: u64) -> TileLimits {
+        let share = binding.min(memory / 4);
+        // The upper levels of the prefix sum need a little more than one in two thousand.
+        TileLimits { cells: (share / 4 - share / 4096).max(1), bundles: (share / BUNDLE_BYTES).max(1) }
+    }
+}
+
+impl Tile {
+    pub(crate) fn bundles(&self) -> u64 {
+        u64::from(self.count[0]) * u64::from(self.count[1])
+    }
+
+    pub(crate) fn cells(&self) -> u64 {
+        self.bundles() * u64::from(self.layers)
+    }
+
+    fn fits(&self, limits: TileLimits) -> bool {
+        self.cells() <= limits.cells && self.bundles() <= limits.bundles
+    }
+
+    /// Two halves, in the order in which they are to be cast: rows, then columns, then layers from
+    /// front to back. `None` for a single cell.
+    ///
+    /// Layers are split for single bundles only. The halves of such a tile follow each other without
+    /// another bundle between them, so that the pixels of the front half are still there for the back.
+    pub(crate) fn split(self) -> Option<[Tile; 2]> {
+        for axis in [1, 0] {
+            if self.count[axis] > 1 {
+                let (mut a, mut b) = (self, self);
+                a.count[axis] /= 2;
+                b.count[axis] -= a.count[axis];
+                b.first[axis] += a.count[axis];
+                return Some([a, b]);
+            }
+        }
+        if self.layers < 2 {
+            return None;
+        }
+        let (mut front, mut back) = (self, self);
+        front.layers /= 2;
+        back.layers -= front.layers;
+        back.first_layer += front.layers;
+        Some([front, back])
+    }
+}
+
+/// The whole picture, cut until every tile is within `limits`; in the order of casting.
+pub(crate) fn tiles(bundles: [u32; 2], slices: u64, limits: TileLimits) -> Vec<Tile> {
+    let layers = u32::try_from(slices / u64::from(CELL_SLICES)).unwrap_or(u32::MAX);
+    let mut tiles = Vec::new();
+    let mut todo = vec![Tile { first: [0, 0], count: bundles, first_layer: 0, layers }];
+    while let Some(tile) = todo.pop() {
+        match tile.split() {
+            Some([a, b]) if !tile.fits(limits) => todo.extend([b, a]),
+            _ => tiles.push(tile),
+        }
+    }
+    tiles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLENTY: TileLimits = TileLimits { cells: 1 << 40, bundles: 1 << 40 };
+
+    #[test]
+    fn a_picture_that_fits_is_one_tile() {
+        let tiles = tiles([64, 64], 160, PLENTY);
+        assert_eq!(tiles, [Tile { first: [0, 0], count: [64, 64], first_layer: 0, layers: 10 }]);
+    }
+
+    #[test]
+    fn tiles_cover_every_cell_once_and_fit() {
+        for limits in [
+            TileLimits { cells: 100, bundles: 1 << 40 },
+            TileLimits { cells: 7, bundles: 1 << 40 },
+            TileLimits { cells: 1 << 40, bundles: 5 },
+        ] {
+            let tiles = tiles([13, 7], 16 * 11, limits);
+            assert!(tiles.iter().all(|tile| tile.fits(limits)));
+            let mut seen = std::collections::BTreeSet::new();
+            for tile in &tiles {
+                for (y, x) in (0..tile.count[1]).flat_map(|y| (0..tile.count[0]).map(move |x| (y, x))) {
+                    for layer in 0..tile.layers {
+                        let cell = (tile.first[0] + x, tile.first[1] + y, tile.first_layer + layer);
+                        assert!(seen.insert(cell), "{cell:?} twice");
+                    }
+                }
+            }
+            assert_eq!(seen.len(), 13 * 7 * 11);
+        }
+    }
+
+    #[test]
+    fn layers_of_a_bundle_come_front_to_back_without_a_break() {
+        let tiles = tiles([2, 1], 16 * 9, TileLimits { cells: 2, bundles: 1 << 40 });
+        for pair in tiles.windows(2) {
+            let same_bundle = pair[0].first == pair[1].first;
+            let expected = if same_bundle { pair[0].first_layer + pair[0].layers } else { 0 };
+            assert_eq!(pair[1].first_layer, expected);
+        }
+    }
+
+    #[test]
+    fn a_single_cell_cannot_be_split() {
+        assert_eq!(Tile { first: [3, 4], count: [1, 1], first_layer: 5, layers: 1 }.split(), None);
+    }
+}

@@ -1,0 +1,124 @@
+//! Full-sampling ray casting (HPG 2016, Alg. 2).
+
+use bytemuck::{Pod, Zeroable};
+
+use super::grid::Grid;
+use super::shared::{FRAME_WGSL, KERNEL_WGSL, ParticleStore, TRANSFER_WGSL, TransferTables};
+use crate::camera::Slices;
+use crate::error::RenderError;
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+use crate::kernel::Kernel;
+use crate::plan::Tile;
+
+/// `Chunk` of `cast.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+struct Chunk {
+    first_bundle: u32,
+    end_bundle: u32,
+    padding: [u32; 2],
+}
+
+pub(crate) struct Cast {
+    /// One a kernel.
+    pipelines: Vec<Pipeline>,
+    chunk: Buffer,
+    /// Depth of the middle of each layer of cells, in device units.
+    layer_depth: Buffer,
+    /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
+    pub pixels: Buffer,
+    /// Evaluations, and those with a weight above zero where they are counted: low and high words.
+    pub counters: Buffer,
+}
+
+impl Cast {
+    /// `count_inside`: count evaluations with a weight above zero too, which costs time.
+    pub(crate) fn new(gpu: &Gpu, count_inside: bool) -> Cast {
+        use Access::{Read, Uniform, Write};
+        let pipeline = |kernel: &Kernel| {
+            Pipeline::new(
+                gpu,
+                &PipelineDescription {
+                    label: "cast",
+                    sources: &[FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")],
+                    entry_point: "cast_rays",
+                    constants: &[
+                        ("KERNEL", f64::from(kernel.code())),
+                        ("COUNT_INSIDE", f64::from(u8::from(count_inside))),
+                    ],
+                    bindings: &[
+                        Uniform, Uniform, Uniform, Read, Read, Read, Read, Read, Read, Read, Read, Write,
+                        Write,
+                    ],
+                },
+            )
+        };
+        Cast {
+            pipelines: Kernel::ALL.iter().map(pipeline).collect(),
+            chunk: Buffer::uniform::<Chunk>(gpu, "cast chunk"),
+            layer_depth: Buffer::storage(gpu, "layer depths", 4),
+            pixels: Buffer::storage(gpu, "pixels", 16),
+            counters: Buffer::storage(gpu, "evaluation counters", 16),
+        }
+    }
+
+    /// Prepares the depths of the layers, in units of `unit`.
+    pub(crate) fn write_slices(&mut self, gpu: &Gpu, slices: &Slices, unit: f64) -> Result<(), RenderError> {
+        let depths: Vec<f32> =
+            (0..slices.layers()).map(|layer| (slices.depth((16 * layer + 8) as f64) / unit) as f32).collect();
+        self.layer_depth.write(gpu, &depths)
+    }
+
+    /// Makes room for the pixels of `tile`.
+    pub(crate) fn reserve(&mut self, gpu: &Gpu, tile: &Tile) -> Result<(), RenderError> {
+        self.pixels.reserve(gpu, tile.bundles() * 64)
+    }
+
+    /// Says which bundles of the tile the next submission casts.
+    pub(crate) fn write_chunk(
+        &mut self,
+        gpu: &Gpu,
+        bundles: std::ops::Range<u64>,
+    ) -> Result<(), RenderError> {
+        let chunk =
+            Chunk { first_bundle: bundles.start as u32, end_bundle: bundles.end as u32, padding: [0; 2] };
+        self.chunk.write(gpu, &[chunk])
+    }
+
+    /// Records the casting of `bundles` bundles: those that [`Cast::write_chunk`] named.
+    #[expect(clippy::too_many_arguments, reason = "one for each thing the shader reads")]
+    pub(crate) fn record(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        kernel: Kernel,
+        uniforms: [&Buffer; 2],
+        store: &ParticleStore,
+        grid: &Grid,
+        transfer: &TransferTables,
+        bundles: u64,
+    ) {
+        let [frame, tile] = uniforms;
+        let buffers = [
+            frame,
+            tile,
+            &self.chunk,
+            &store.projected,
+            &store.weights,
+            &store.quantities,
+            &grid.cells,
+            &grid.pairs,
+            &self.layer_depth,
+            &transfer.nodes,
+            &transfer.buckets,
+            &self.pixels,
+            &self.counters,
+        ]
+        .map(Buffer::raw);
+        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &buffers, bundles);
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.pixels.bytes() + self.layer_depth.bytes()
+    }
+}

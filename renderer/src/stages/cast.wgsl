@@ -1,0 +1,260 @@
+// Full-sampling ray casting (HPG 2016, Alg. 2): a workgroup takes a bundle of 8 × 8 rays from front
+// to back, a lane one ray; particles are read once a cell and shared by all rays.
+//
+// Inside a cell, lengths are relative to the middle of the cell on the bundle's axis, in units of
+// that middle's depth z_c: a squared distance then never cancels against the distance to the eye.
+
+struct Chunk {
+    // Bundles of the tile to cast: the first, and the one after the last.
+    first_bundle: u32,
+    end_bundle: u32,
+    padding: vec2<u32>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var<uniform> tile: Tile;
+@group(0) @binding(2) var<uniform> chunk: Chunk;
+@group(0) @binding(3) var<storage, read> projected: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> weights: array<f32>;
+@group(0) @binding(5) var<storage, read> quantities: array<f32>;
+// Where the references of each cell end; those of the first begin at 0.
+@group(0) @binding(6) var<storage, read> cells: array<u32>;
+@group(0) @binding(7) var<storage, read> pairs: array<u32>;
+// Depth of the middle of each layer of cells.
+@group(0) @binding(8) var<storage, read> layer_depth: array<f32>;
+@group(0) @binding(9) var<storage, read> nodes: array<Node>;
+@group(0) @binding(10) var<storage, read> buckets: array<u32>;
+// Premultiplied linear RGB and transparency, 64 pixels a bundle.
+@group(0) @binding(11) var<storage, read_write> pixels: array<vec4<f32>>;
+// Evaluations and those with a weight above zero: low and high words.
+@group(0) @binding(12) var<storage, read_write> counters: array<atomic<u32>, 4>;
+
+override COUNT_INSIDE: bool = false;
+
+const LANES: u32 = 64u;
+// A ray that transmits less than this has ended.
+const OPAQUE: f32 = 1e-5;
+// Quantity of a particle that is left out (Quantity::REJECTED).
+const REJECTED: f32 = 1e38;
+
+// Position relative to the cell, and 1/h².
+var<workgroup> balls: array<vec4<f32>, LANES>;
+// Weight, and weight times quantity.
+var<workgroup> charges: array<vec2<f32>, LANES>;
+var<workgroup> open_rays: atomic<u32>;
+var<workgroup> tally: array<atomic<u32>, 4>;
+
+struct Ray {
+    colour: vec3<f32>,
+    transparency: f32,
+}
+
+// Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
+// `reference`, a value of the cell: where all particles have the same one, the sum is exact.
+fn load_particle(place: u32, lane: u32, middle: vec3<f32>, reference: f32) {
+    let particle = pairs[place];
+    let ball = projected[particle];
+    let inverse_radius = middle.z / ball.w;
+    balls[lane] = vec4((ball.xyz - middle) / middle.z, inverse_radius * inverse_radius);
+    let quantity = quantities[particle];
+    let weight = select(weights[particle], 0.0, quantity > REJECTED);
+    charges[lane] = vec2(weight, select(weight * (quantity - reference), 0.0, quantity > REJECTED));
+}
+
+// One more sample behind the others: I += T·(1 − t)·c, T *= t (contract, section 1). `opacity` is
+// 1 − T of the cell's samples so far: kept instead of T, it loses nothing where it is tiny.
+fn composite(cell: vec4<f32>, weight: f32, quantity: f32, reference: f32, path: f32) -> vec4<f32> {
+    if weight <= 0.0 {
+        return cell;
+    }
+    let sample = transfer_at(clamp(reference + quantity / weight, 0.0, 1.0));
+    let share = (1.0 - cell.w) * path_opacity(sample.w, path);
+    return cell + share * vec4(sample.rgb, 1.0);
+}
+
+fn composite_four(
+    cell: vec4<f32>,
+    weights: vec4<f32>,
+    quantities: vec4<f32>,
+    reference: f32,
+    paths: vec4<f32>,
+) -> vec4<f32> {
+    var result = composite(cell, weights.x, quantities.x, reference, paths.x);
+    result = composite(result, weights.y, quantities.y, reference, paths.y);
+    result = composite(result, weights.z, quantities.z, reference, paths.z);
+    return composite(result, weights.w, quantities.w, reference, paths.w);
+}
+
+// Colour and opacity of a ray's stretch through one cell.
+//
+// `slope` is the ray's, `from_axis` its distance in slope from the bundle's axis.
+fn cast_cell(
+    layer: u32,
+    first: u32,
+    end: u32,
+    axis: vec2<f32>,
+    slope: vec2<f32>,
+    from_axis: vec2<f32>,
+    lane: u32,
+) -> vec4<f32> {
+    let depth = layer_depth[tile.first_layer + layer];
+    let middle = depth * vec3(axis, 1.0);
+    let direction = vec3(slope, 1.0);
+    let direction_squared = dot(direction, direction);
+    let any_quantity = quantities[pairs[first]];
+    let reference = select(any_quantity, 0.0, any_quantity > REJECTED);
+    // Sums over particles at the ray's 16 samples. Four vectors rather than an array: an indexed
+    // array would live in memory.
+    var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
+    var q0 = vec4(0.0); var q1 = vec4(0.0); var q2 = vec4(0.0); var q3 = vec4(0.0);
+    let at = frame.sample_offset;
+    var done = 0u;
+    var inside = 0u;
+
+    for (var base = first; base < end; base += LANES) {
+        if base + lane < end {
+            load_particle(base + lane, lane, middle, reference);
+        }
+        workgroupBarrier();
+        let loaded = min(LANES, end - base);
+        for (var i = 0u; i < loaded; i += 1u) {
+            let ball = balls[i];
+            // Along the ray, 1 − ρ² is a parabola around the point closest to the particle.
+            let offset = ball.xyz - vec3(from_axis, 0.0);
+            let closest = dot(offset, direction) / direction_squared;
+            let across = offset - closest * direction;
+            let top = 1.0 - dot(across, across) * ball.w;
+            if top <= 0.0 {
+                continue;
+            }
+            let bend = direction_squared * ball.w;
+            let reach = sqrt(top / bend);
+            let near = closest - reach;
+            let far = closest + reach;
+            let charge = charges[i];
+            if at[0].x <= far && at[0].w >= near {
+                let t = at[0] - closest;
+                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+                w0 += charge.x * k;
+                q0 += charge.y * k;
+                done += 4u;
+                if COUNT_INSIDE { inside += positive(k); }
+            }
+            if at[1].x <= far && at[1].w >= near {
+                let t = at[1] - closest;
+                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+                w1 += charge.x * k;
+                q1 += charge.y * k;
+                done += 4u;
+                if COUNT_INSIDE { inside += positive(k); }
+            }
+            if at[2].x <= far && at[2].w >= near {
+                let t = at[2] - closest;
+                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+                w2 += charge.x * k;
+                q2 += charge.y * k;
+                done += 4u;
+                if COUNT_INSIDE { inside += positive(k); }
+            }
+            if at[3].x <= far && at[3].w >= near {
+                let t = at[3] - closest;
+                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+                w3 += charge.x * k;
+                q3 += charge.y * k;
+                done += 4u;
+                if COUNT_INSIDE { inside += positive(k); }
+            }
+        }
+        workgroupBarrier();
+    }
+    add_to_tally(done, inside);
+
+    let path = frame.slab_depth;
+    let scale = depth * sqrt(direction_squared) * frame.path_scale;
+    var cell = vec4(0.0);
+    cell = composite_four(cell, w0, q0, reference, path[0] * scale);
+    cell = composite_four(cell, w1, q1, reference, path[1] * scale);
+    cell = composite_four(cell, w2, q2, reference, path[2] * scale);
+    return composite_four(cell, w3, q3, reference, path[3] * scale);
+}
+
+fn positive(k: vec4<f32>) -> u32 {
+    return u32(dot(select(vec4(0.0), vec4(1.0), k > vec4(0.0)), vec4(1.0)));
+}
+
+// Low and high halves apart: the sums of 64 lanes stay below 2³².
+fn add_to_tally(done: u32, inside: u32) {
+    atomicAdd(&tally[0], done & 0xffffu);
+    atomicAdd(&tally[1], done >> 16u);
+    if COUNT_INSIDE {
+        atomicAdd(&tally[2], inside & 0xffffu);
+        atomicAdd(&tally[3], inside >> 16u);
+    }
+}
+
+// Adds a cell's tally to a counter of two words, and clears it.
+fn settle_tally(entry: u32) {
+    let low_half = atomicExchange(&tally[entry], 0u);
+    let high_half = atomicExchange(&tally[entry + 1u], 0u);
+    let shifted = high_half << 16u;
+    let low = low_half + shifted;
+    let carry = select(0u, 1u, low < shifted);
+    let before = atomicAdd(&counters[entry], low);
+    let overflow = select(0u, 1u, before + low < before);
+    let high = (high_half >> 16u) + carry + overflow;
+    if high > 0u {
+        atomicAdd(&counters[entry + 1u], high);
+    }
+}
+
+@compute @workgroup_size(LANES)
+fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = chunk.first_bundle + flat(workgroup);
+    if index >= chunk.end_bundle {
+        return;
+    }
+    let bundle = tile.first + vec2(index % tile.count.x, index / tile.count.x);
+    let corner = vec2<f32>(bundle * BUNDLE_SIDE);
+    let in_bundle = vec2<f32>(vec2(lane % BUNDLE_SIDE, lane / BUNDLE_SIDE));
+    let axis = ray_slope(frame, corner + 3.5);
+    // Exact: half pixels times the pitch.
+    let from_axis = vec2(in_bundle.x - 3.5, 3.5 - in_bundle.y) * frame.pitch;
+    let slope = axis + from_axis;
+
+    let pixel = index * LANES + lane;
+    let in_picture = all(corner + in_bundle < vec2<f32>(frame.size));
+    var ray = Ray(vec3(0.0), 1.0);
+    if tile.first_layer > 0u {
+        let so_far = pixels[pixel];
+        ray = Ray(so_far.rgb, so_far.w);
+    }
+    let row = index * tile.layers;
+    var first = 0u;
+    if row > 0u {
+        first = cells[row - 1u];
+    }
+    for (var layer = 0u; layer < tile.layers; layer += 1u) {
+        let end = cells[row + layer];
+        if end > first && end <= tile.pair_capacity {
+            let cell = cast_cell(layer, first, end, axis, slope, from_axis, lane);
+            ray.colour += ray.transparency * cell.rgb;
+            ray.transparency *= 1.0 - cell.a;
+            if lane == 0u {
+                atomicStore(&open_rays, 0u);
+            }
+            workgroupBarrier();
+            if in_picture && ray.transparency > OPAQUE {
+                atomicAdd(&open_rays, 1u);
+            }
+            if lane == 0u {
+                settle_tally(0u);
+                if COUNT_INSIDE { settle_tally(2u); }
+            }
+            if workgroupUniformLoad(&open_rays) == 0u {
+                break;
+            }
+        }
+        first = end;
+    }
+    pixels[pixel] = vec4(ray.colour, ray.transparency);
+}

@@ -1,0 +1,8 @@
+//! The stages between particles and picture. Each is a struct that builds its pipelines once and
+//! then records its work; its shader stands beside it.
+
+pub(crate) mod cast;
+pub(crate) mod grid;
+pub(crate) mod project;
+pub(crate) mod scan;
+pub(crate) mod shared;

@@ -1,0 +1,39 @@
+//! Projection: particles from the world into view space, once for each camera.
+
+use super::shared::{FRAME_WGSL, ParticleStore};
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+
+pub(crate) struct Project {
+    pipeline: Pipeline,
+}
+
+impl Project {
+    pub(crate) fn new(gpu: &Gpu) -> Project {
+        use Access::{Read, Uniform, Write};
+        let pipeline = Pipeline::new(
+            gpu,
+            &PipelineDescription {
+                label: "project",
+                sources: &[FRAME_WGSL, include_str!("project.wgsl")],
+                entry_point: "project",
+                constants: &[],
+                bindings: &[Uniform, Read, Read, Write, Write],
+            },
+        );
+        Project { pipeline }
+    }
+
+    /// Fills `store.projected` and `store.weights`.
+    pub(crate) fn record(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        frame: &Buffer,
+        store: &ParticleStore,
+        particles: u64,
+    ) {
+        let buffers =
+            [frame.raw(), store.high.raw(), store.low.raw(), store.projected.raw(), store.weights.raw()];
+        self.pipeline.dispatch(gpu, pass, &buffers, particles.div_ceil(256));
+    }
+}

@@ -1,0 +1,99 @@
+//! Constants of a picture and of a tile, as the shaders see them (`frame.wgsl`).
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+use crate::camera::{CELL_SLICES, Slices};
+use crate::plan::Tile;
+use crate::scene::Scene;
+
+/// A support radius below this share of the distance between samples is raised to it. Samples are
+/// at most one pitch apart laterally and along depth, so no point is farther than √¾ ≈ 0.866 of the
+/// pitch from one: a particle of this radius always reaches a sample. Its weight stays V·W(r, h),
+/// with the raised h; a particle moves the edge of the fluid by less than a pixel.
+pub(crate) const RADIUS_FLOOR: f64 = 0.9;
+
+/// `Frame` of `frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct FrameUniform {
+    pub right: [f32; 3],
+    pub pitch: f32,
+    pub up: [f32; 3],
+    pub near: f32,
+    pub forward: [f32; 3],
+    pub far: f32,
+    pub eye_high: [f32; 3],
+    pub log_step: f32,
+    pub eye_low: [f32; 3],
+    pub radius_floor: f32,
+    pub size: [u32; 2],
+    pub particle_count: u32,
+    pub path_scale: f32,
+    pub sample_offset: [f32; CELL_SLICES as usize],
+    pub slab_depth: [f32; CELL_SLICES as usize],
+}
+
+impl FrameUniform {
+    /// Constants of `scene`, whose rays are cut into `slices`; lengths in the particle set's unit.
+    pub(crate) fn new(scene: &Scene, slices: &Slices) -> FrameUniform {
+        let camera = &scene.camera;
+        let particles = &scene.particles;
+        let unit = particles.unit();
+        let eye = particles.to_device(camera.eye);
+        let eye_high = eye.as_vec3();
+        let eye_low = (eye - eye_high.as_dvec3()).as_vec3();
+        let pitch = 2.0 * camera.tan_half_fov / f64::from(scene.height);
+        let step = slices.log_step;
+        // Slices of a cell lie symmetric about its middle, 8 slices in.
+        let from_middle = |slice: f64| slice - f64::from(CELL_SLICES) / 2.0;
+        FrameUniform {
+            right: single(camera.right),
+            pitch: pitch as f32,
+            up: single(camera.up),
+            near: (camera.near / unit) as f32,
+            forward: single(camera.forward),
+            far: (camera.far / unit) as f32,
+            eye_high: eye_high.to_array(),
+            log_step: step as f32,
+            eye_low: eye_low.to_array(),
+            radius_floor: (RADIUS_FLOOR * pitch.max(step.exp_m1())) as f32,
+            size: [scene.width, scene.height],
+            particle_count: particles.len() as u32,
+            path_scale: (unit / scene.reference_length) as f32,
+            sample_offset: std::array::from_fn(|k| (from_middle(k as f64 + 0.5) * step).exp_m1() as f32),
+            slab_depth: std::array::from_fn(|k| {
+                ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
+            }),
+        }
+    }
+}
+
+fn single(v: DVec3) -> [f32; 3] {
+    v.as_vec3().to_array()
+}
+
+/// `Tile` of `frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct TileUniform {
+    pub first: [u32; 2],
+    pub count: [u32; 2],
+    pub first_layer: u32,
+    pub layers: u32,
+    pub pair_capacity: u32,
+    pub padding: u32,
+}
+
+impl TileUniform {
+    pub(crate) fn new(tile: &Tile, pair_capacity: u64) -> TileUniform {
+        TileUniform {
+            first: tile.first,
+            count: tile.count,
+            first_layer: tile.first_layer,
+            layers: tile.layers,
+            pair_capacity: u32::try_from(pair_capacity).unwrap_or(u32::MAX),
+            padding: 0,
+        }
+    }
+}
