@@ -1,8 +1,11 @@
 //! The renderer's pictures of random scenes are those of the f64 twin: at most 10⁻³ apart on 99.9 %
 //! of the pixels, and 10⁻⁵ on average.
 
-use reference::device::assert_alike;
+use reference::compare::compare;
+use reference::device::{assert_alike, picture};
+use reference::picture::{Image, render_with_floor};
 use reference::scenes::{self, Scene, Shape};
+use reference::setup::Setup;
 use renderer::Kernel;
 
 /// Every shape with every kernel at one size, `rounds` times with other seeds.
@@ -18,9 +21,19 @@ fn scenes(size: [u32; 2], first_seed: u64, rounds: u64) -> impl Iterator<Item = 
     })
 }
 
+/// Pictures of one pixel, side by side as one picture.
+fn joined<T>(images: impl Iterator<Item = Image<T>>) -> Image<T> {
+    let pixels: Vec<[T; 4]> = images.flat_map(|image| image.pixels).collect();
+    Image { width: pixels.len() as u32, height: 1, pixels }
+}
+
 #[test]
 fn one_pixel() {
-    assert_alike(scenes([1, 1], 1_000, 2));
+    let scenes: Vec<Scene> = scenes([1, 1], 1_000, 5).collect();
+    let twins = scenes.iter().map(|scene| render_with_floor(&Setup::new(&scene.view), &scene.particles));
+    let comparison = compare(&joined(twins), &joined(scenes.iter().map(picture)));
+    let worst = &scenes[comparison.worst[0] as usize].name;
+    assert!(comparison.is_alike(), "{comparison}, which is {worst}");
 }
 
 #[test]

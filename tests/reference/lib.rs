@@ -16,8 +16,9 @@
 //! | [`grid`] | which cells of the view-aligned grid a particle reaches |
 //! | [`floor`] | the one documented deviation: the sub-pixel floor of the support radius |
 //!
-//! Besides the twin: [`compare`] tells two pictures apart, [`scenes`] makes random ones from a seed
-//! ([`random`]), and [`device`] renders them on the machine's adapter.
+//! Besides the twin: [`compare`] tells two pictures apart, [`margins`] says how near a ray comes to a
+//! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]), and [`device`] renders
+//! them on the machine's adapter.
 
 pub mod camera;
 pub mod compare;
@@ -26,6 +27,7 @@ pub mod device;
 pub mod floor;
 pub mod grid;
 pub mod kernels;
+pub mod margins;
 pub mod neighbours;
 pub mod particle;
 pub mod picture;

@@ -20,6 +20,12 @@ impl Transfer {
         Transfer { points: points.iter().map(point).collect() }
     }
 
+    /// Distance from `u` to the nearest step; infinite without one.
+    pub fn distance_to_step(&self, u: f64) -> f64 {
+        let steps = self.points.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        steps.map(|pair| (u - pair[0].0).abs()).fold(f64::INFINITY, f64::min)
+    }
+
     /// Colour and opacity at `u`: linear between two points, constant outside; where points share
     /// their u, the last of them holds.
     pub fn at(&self, u: f64) -> [f64; 4] {
@@ -68,6 +74,13 @@ mod tests {
         assert_eq!(transfer.at(0.0), [0.0; 4]);
         assert_eq!(transfer.at(0.5), [0.5; 4]);
         assert_eq!(transfer.at(1.0), [1.0; 4]);
+    }
+
+    #[test]
+    fn steps_are_found() {
+        let transfer = transfer(&[(0.25, 0.0), (0.5, 0.0), (0.5, 1.0), (1.0, 1.0), (1.0, 0.0)]);
+        assert_eq!([0.25, 0.5, 1.0].map(|u| transfer.distance_to_step(u)), [0.25, 0.0, 0.0]);
+        assert_eq!(Transfer { points: vec![(0.5, [0.0; 4])] }.distance_to_step(0.5), f64::INFINITY);
     }
 
     #[test]
