@@ -32,24 +32,25 @@ fn smooth_scenes() -> Vec<Scene> {
 }
 
 /// A scene whose quantity is constant and lies exactly at a step of the transfer function: a
-/// rounding error of Q would turn samples from blue to red.
-fn constant_at_a_step() -> Scene {
+/// rounding error of Q would turn samples from red to blue.
+fn constant_at_a_step(u: f32) -> Scene {
     let mut scene = scenes::plain(14, 33, 21);
-    scene.name = "constant at a step".to_owned();
-    scene.particles.iter_mut().for_each(|particle| particle.quantity = 0.375);
-    let step = |u, rgb, opacity| ControlPoint { u, rgb, opacity };
+    scene.name = format!("constant at a step at {u}");
+    scene.particles.iter_mut().for_each(|particle| particle.quantity = f64::from(u));
+    let point = |u, rgb, opacity| ControlPoint { u, rgb, opacity };
     scene.view.transfer.points = vec![
-        step(0.0, [0.0, 0.0, 1.0], 0.05),
-        step(0.375, [0.0, 0.0, 1.0], 0.05),
-        step(0.375, [1.0, 0.0, 0.0], 0.6),
-        step(1.0, [1.0, 0.0, 0.0], 0.6),
+        point(0.0, [0.0, 0.0, 1.0], 0.05),
+        point(u, [0.0, 0.0, 1.0], 0.05),
+        point(u, [1.0, 0.0, 0.0], 0.6),
+        point(1.0, [1.0, 0.0, 0.0], 0.6),
     ];
     scene
 }
 
 fn all_scenes() -> Vec<Scene> {
     let mut scenes = smooth_scenes();
-    scenes.push(constant_at_a_step());
+    // On and off the multiples of a power of two at which a table of the function may have its entries.
+    scenes.extend([0.375, 0.370_117_2, 0.1].map(constant_at_a_step));
     scenes
 }
 
@@ -138,16 +139,20 @@ fn the_unit_of_volume_and_of_the_quantity() {
 }
 
 #[test]
-fn particles_outside_the_picture() {
+fn particles_far_outside_the_picture() {
     let scene = scenes::plain(18, 33, 21);
     let before = picture(&scene);
-    let mut crowded = scene.clone();
-    for (i, direction) in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z].into_iter().enumerate() {
-        let mut stray = scene.particles[i];
-        stray.position = 1e4 * direction;
-        crowded.particles.insert(100 * i, stray);
+    for distance in [10.0, 1e4, 1e7] {
+        let mut crowded = scene.clone();
+        let directions = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z];
+        for (i, direction) in directions.into_iter().enumerate() {
+            let mut stray = scene.particles[i];
+            // Uneven, so that the middle of all particles is far away as well.
+            stray.position = distance * (1.0 + 0.3 * i as f64) * direction;
+            crowded.particles.insert(100 * i, stray);
+        }
+        assert_unchanged(&format!("strays {distance} away"), &before, &picture(&crowded));
     }
-    assert_unchanged("five strays", &before, &picture(&crowded));
 }
 
 #[test]

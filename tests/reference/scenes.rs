@@ -25,15 +25,15 @@ pub fn grey(u: f32, value: f32, opacity: f32) -> ControlPoint {
 
 /// A view from (0, 0, 4) on the origin, from depth 1 to 7, of quantities from 0 to 1, at full sampling.
 pub fn plain_view(width: u32, height: u32) -> View {
-    let mut view = View::default();
-    view.camera = Some(CameraView {
+    let camera = CameraView {
         eye: DVec3::new(0.0, 0.0, 4.0),
         target: DVec3::ZERO,
         up: DVec3::Y,
         fov_y_degrees: 40.0,
         near: Some(1.0),
         far: Some(7.0),
-    });
+    };
+    let mut view = View { camera: Some(camera), ..View::default() };
     (view.image.width, view.image.height) = (width, height);
     view.quantity.range = Some([0.0, 1.0]);
     view.transfer.reference_length = Some(0.5);
