@@ -24,6 +24,10 @@ pub enum RenderError {
     OutOfMemory(String),
     #[error("{what} needs {needed} bytes in one buffer, but the adapter allows {limit}")]
     BufferLimit { what: &'static str, needed: u64, limit: u64 },
+    #[error(
+        "{what} need {needed} bytes, more than {memory} bytes of device memory allow: choose a larger picture, a closer camera or more memory"
+    )]
+    TooLarge { what: &'static str, needed: u64, memory: u64 },
     #[error("the device refused the work: {0}")]
     Device(String),
 }

@@ -1,8 +1,36 @@
-//! An adaptive GPU ray caster for unstructured, dynamic particle sets.
+//! A GPU ray caster for unstructured, dynamic particle sets.
+//!
+//! It shows the particles of an SPH run themselves: nothing is resampled, and nothing is computed
+//! ahead of time, so that every frame of a run costs the same. The method is that of Hochstetter,
+//! Orthmann and Kolb, *Adaptive Sampling for On-The-Fly Ray Casting of Particle-based Fluids* (HPG
+//! 2016); this crate holds its full-sampling part, on which adaptive sampling builds.
+//!
+//! # From particles to a picture
+//!
+//! A [`ParticleSet`] and a [`Quantity`] over it, made once a frame on the host in f64, and a [`View`],
+//! which is everything else that defines a picture, make a [`Scene`]. [`Renderer::render`] turns a
+//! scene into a [`Picture`] in stages, each with its shader beside it in `stages/`:
+//!
+//! 1. **project** brings the particles into view space.
+//! 2. **grid** sorts them into cells of 8 × 8 pixels × 16 slices, aligned with the rays: it counts the
+//!    particles of every cell, **scan** turns counts into places, and the particles go to their places.
+//! 3. **cast** takes each bundle of 8 × 8 rays through its cells from front to back. The particles of
+//!    a cell are read once for all its rays; each is evaluated only at samples inside its support.
+//!
+//! `plan` cuts a picture that does not fit the device into tiles; `tiles` takes one tile through the
+//! stages; `renderer` knows which stages a change makes stale, and skips the others.
+//!
+//! # Numbers
+//!
+//! Positions reach the device as two f32 each, in a unit close to the support radius, and are
+//! subtracted from the eye before anything else happens to them. Distances inside a cell are taken
+//! relative to the cell. So neither the unit of the run, nor its place in the world, nor a camera far
+//! away or deep inside costs precision.
 
 mod camera;
 mod error;
 mod gpu;
+mod inspect;
 mod kernel;
 mod pace;
 mod particles;
@@ -10,14 +38,17 @@ mod picture;
 mod plan;
 mod renderer;
 mod scene;
+mod selection;
 mod stages;
 mod stats;
+mod tiles;
 mod transfer;
 mod view;
 
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
 pub use error::{GpuError, RenderError};
 pub use gpu::{Gpu, GpuOptions};
+pub use inspect::GridCell;
 pub use kernel::Kernel;
 pub use particles::{Bounds, ParticleSet, Quantity, RawParticle, Rejected};
 pub use picture::Picture;

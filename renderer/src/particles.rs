@@ -171,18 +171,26 @@ impl ParticleSet {
         skip: impl Fn(usize) -> bool + Sync,
     ) -> Option<[f64; 2]> {
         let eye = self.to_device(eye);
-        let [near, far] = (0..self.len())
-            .into_par_iter()
-            .filter(|&index| !skip(index))
-            .map(|index| {
-                let [x, y, z, radius] = self.high[index].map(f64::from);
-                let [dx, dy, dz, _] = self.low[index].map(f64::from);
-                let depth = (DVec3::new(x + dx, y + dy, z + dz) - eye).dot(forward);
+        let [near, far] = self
+            .balls()
+            .enumerate()
+            .filter(|(index, _)| !skip(*index))
+            .map(|(_, (position, radius))| {
+                let depth = (position - eye).dot(forward);
                 [depth - radius, depth + radius]
             })
             .filter(|[_, farthest]| *farthest > 0.0)
             .reduce(|| EMPTY, join);
         (near <= far).then_some([near * self.unit, far * self.unit])
+    }
+
+    /// Position, in device units, and support radius of every kept particle.
+    pub(crate) fn balls(&self) -> impl IndexedParallelIterator<Item = (DVec3, f64)> + '_ {
+        self.high.par_iter().zip(&self.low).map(|(high, low)| {
+            let [x, y, z, radius] = high.map(f64::from);
+            let [dx, dy, dz, _] = low.map(f64::from);
+            (DVec3::new(x + dx, y + dy, z + dz), radius)
+        })
     }
 
     /// Length of the device's unit in the unit of the run, a power of two.
@@ -269,10 +277,10 @@ fn next_id() -> u64 {
 }
 
 /// Finite minimum and maximum; [0, 1] where nothing is finite.
-fn finite_range(count: usize, value: impl Fn(usize) -> f64 + Sync) -> [f64; 2] {
+fn finite_range(count: usize, value: impl Fn(usize) -> f64 + Sync + Send) -> [f64; 2] {
     let [low, high] = (0..count)
         .into_par_iter()
-        .map(|index| value(index))
+        .map(value)
         .filter(|q| q.is_finite())
         .fold(|| EMPTY, |[low, high], q| [low.min(q), high.max(q)])
         .reduce(|| EMPTY, join);

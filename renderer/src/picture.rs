@@ -1,5 +1,9 @@
 //! The picture that a rendering leaves.
 
+use rayon::prelude::*;
+
+use crate::camera::BUNDLE_SIDE;
+use crate::plan::Tile;
 use crate::stats::Stats;
 
 /// Premultiplied linear RGBA, row 0 on top.
@@ -11,4 +15,28 @@ pub struct Picture {
     pub pixels: Vec<[f32; 4]>,
     /// What the picture cost.
     pub stats: Stats,
+}
+
+impl Picture {
+    /// Puts the pixels of a tile, 64 a bundle as the device has them, into their places.
+    pub(crate) fn place(&mut self, tile: &Tile, pixels: &[[f32; 4]]) {
+        let width = self.width as usize;
+        let [first_x, first_y] = tile.first.map(|bundle| (bundle * BUNDLE_SIDE) as usize);
+        let columns = (tile.count[0] * BUNDLE_SIDE) as usize;
+        let rows = (tile.count[1] * BUNDLE_SIDE) as usize;
+        let side = BUNDLE_SIDE as usize;
+        self.pixels.par_chunks_mut(width).skip(first_y).take(rows).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.iter_mut().skip(first_x).take(columns).enumerate() {
+                let bundle = (y / side) * tile.count[0] as usize + x / side;
+                let [r, g, b, transparency] = pixels[bundle * 64 + lane_of(x % side, y % side)];
+                *pixel = [r, g, b, 1.0 - transparency];
+            }
+        });
+    }
+}
+
+/// Lane of a pixel inside its bundle: a Morton curve, as `place_in_bundle` of `cast.wgsl`.
+fn lane_of(x: usize, y: usize) -> usize {
+    let spread = |i: usize| (i & 1) | (i & 2) << 1 | (i & 4) << 2;
+    spread(x) | spread(y) << 1
 }

@@ -16,20 +16,36 @@ pub(crate) struct Tile {
 /// What one tile may need of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TileLimits {
+    pub particles: u64,
+    /// References of cells to particles.
+    pub pairs: u64,
     pub cells: u64,
     pub bundles: u64,
 }
 
 /// Bytes of a bundle's 64 pixels.
-pub(crate) const BUNDLE_BYTES: u64 = 64 * 16;
+const BUNDLE_BYTES: u64 = 64 * 16;
+/// Bytes of a particle in the widest of its arrays, and in all of them.
+const PARTICLE_STRIDE: u64 = 16;
+const PARTICLE_BYTES: u64 = 56;
+/// Bytes of a reference, and of a cell's counter.
+const WORD: u64 = 4;
 
 impl TileLimits {
-    /// Limits of a device whose bindings hold `binding` bytes, when the grid of a tile may take
-    /// `memory` bytes: a quarter for its counters and a quarter for its pixels.
+    /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:
+    /// a quarter each for particles, references, counters and pixels.
     pub(crate) fn new(binding: u64, memory: u64) -> TileLimits {
-        let share = binding.min(memory / 4);
-        // The upper levels of the prefix sum need a little more than one in two thousand.
-        TileLimits { cells: (share / 4 - share / 4096).max(1), bundles: (share / BUNDLE_BYTES).max(1) }
+        let quarter = memory / 4;
+        let share = binding.min(quarter);
+        // Places in the shaders are 32 bits wide.
+        let words = (share / WORD).clamp(1, u64::from(u32::MAX) / 2);
+        TileLimits {
+            particles: (binding / PARTICLE_STRIDE).min(quarter / PARTICLE_BYTES).max(1),
+            pairs: words,
+            // The upper levels of the prefix sum need a little more than one in two thousand.
+            cells: (words - words / 1024).max(1),
+            bundles: (share / BUNDLE_BYTES).max(1),
+        }
     }
 }
 
@@ -90,7 +106,8 @@ pub(crate) fn tiles(bundles: [u32; 2], slices: u64, limits: TileLimits) -> Vec<T
 mod tests {
     use super::*;
 
-    const PLENTY: TileLimits = TileLimits { cells: 1 << 40, bundles: 1 << 40 };
+    const PLENTY: TileLimits =
+        TileLimits { particles: 1 << 40, pairs: 1 << 40, cells: 1 << 40, bundles: 1 << 40 };
 
     #[test]
     fn a_picture_that_fits_is_one_tile() {
@@ -101,9 +118,9 @@ mod tests {
     #[test]
     fn tiles_cover_every_cell_once_and_fit() {
         for limits in [
-            TileLimits { cells: 100, bundles: 1 << 40 },
-            TileLimits { cells: 7, bundles: 1 << 40 },
-            TileLimits { cells: 1 << 40, bundles: 5 },
+            TileLimits { cells: 100, ..PLENTY },
+            TileLimits { cells: 7, ..PLENTY },
+            TileLimits { bundles: 5, ..PLENTY },
         ] {
             let tiles = tiles([13, 7], 16 * 11, limits);
             assert!(tiles.iter().all(|tile| tile.fits(limits)));
@@ -122,7 +139,7 @@ mod tests {
 
     #[test]
     fn layers_of_a_bundle_come_front_to_back_without_a_break() {
-        let tiles = tiles([2, 1], 16 * 9, TileLimits { cells: 2, bundles: 1 << 40 });
+        let tiles = tiles([2, 1], 16 * 9, TileLimits { cells: 2, ..PLENTY });
         for pair in tiles.windows(2) {
             let same_bundle = pair[0].first == pair[1].first;
             let expected = if same_bundle { pair[0].first_layer + pair[0].layers } else { 0 };

@@ -55,6 +55,10 @@ impl Buffer {
         &self.buffer
     }
 
+    pub(crate) fn binding(&self) -> wgpu::BindingResource<'_> {
+        self.buffer.as_entire_binding()
+    }
+
     /// Number of elements there is room for.
     pub(crate) fn capacity(&self) -> u64 {
         self.buffer.size() / self.stride

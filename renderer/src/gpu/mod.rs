@@ -17,11 +17,13 @@ use crate::error::{GpuError, RenderError};
 pub struct GpuOptions {
     /// Part of the adapter's name, in any case; the fastest one where it is `None`.
     pub adapter: Option<String>,
-    /// Bytes of device memory that the grid of one tile may take; 1 GiB where it is `None`.
+    /// Bytes of device memory that one tile of a picture may take; 4 GiB on a graphics card and 1 GiB
+    /// elsewhere where it is `None`. Pictures that need more are rendered in tiles.
     pub memory: Option<u64>,
 }
 
-const DEFAULT_MEMORY: u64 = 1 << 30;
+const GRAPHICS_CARD_MEMORY: u64 = 4 << 30;
+const SHARED_MEMORY: u64 = 1 << 30;
 
 /// An open device.
 pub struct Gpu {
@@ -69,7 +71,10 @@ impl Gpu {
             .map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
         let failures = Arc::new(Mutex::new(Failures::default()));
         listen(&device, &failures);
-        let memory = options.memory.unwrap_or(DEFAULT_MEMORY);
+        let memory = options.memory.unwrap_or(match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => GRAPHICS_CARD_MEMORY,
+            _ => SHARED_MEMORY,
+        });
         Ok(Gpu { device, queue, info, limits, timestamps, memory, failures })
     }
 

@@ -8,6 +8,8 @@ pub(crate) enum Access {
     Uniform,
     Read,
     Write,
+    /// A two-dimensional texture of unfilterable floats.
+    Texture,
 }
 
 /// What makes a pipeline.
@@ -64,23 +66,23 @@ impl Pipeline {
         Pipeline { label, pipeline, layout }
     }
 
-    /// Records `workgroups` workgroups over `buffers`, which stand in the order of the bindings.
+    /// Records `workgroups` workgroups over `resources`, which stand in the order of the bindings.
     pub(crate) fn dispatch(
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
-        buffers: &[&wgpu::Buffer],
+        resources: &[wgpu::BindingResource],
         workgroups: u64,
     ) {
         if workgroups == 0 {
             return;
         }
-        let entries: Vec<_> = buffers
+        let entries: Vec<_> = resources
             .iter()
             .enumerate()
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            .map(|(binding, resource)| wgpu::BindGroupEntry {
                 binding: binding as u32,
-                resource: buffer.as_entire_binding(),
+                resource: resource.clone(),
             })
             .collect();
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -102,15 +104,21 @@ fn rows(workgroups: u64) -> (u32, u32) {
 }
 
 fn layout_entry((binding, access): (usize, &Access)) -> wgpu::BindGroupLayoutEntry {
+    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let ty = match access {
-        Access::Uniform => wgpu::BufferBindingType::Uniform,
-        Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
-        Access::Write => wgpu::BufferBindingType::Storage { read_only: false },
+        Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+        Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+        Access::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+        Access::Texture => wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
     };
     wgpu::BindGroupLayoutEntry {
         binding: binding as u32,
         visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        ty,
         count: None,
     }
 }

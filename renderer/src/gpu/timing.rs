@@ -8,7 +8,6 @@ use crate::error::RenderError;
 /// Collects the device time of labelled passes; without timestamps all times are zero.
 pub(crate) struct Timing {
     profiler: GpuProfiler,
-    pub(crate) has_timestamps: bool,
 }
 
 impl Timing {
@@ -20,7 +19,7 @@ impl Timing {
         };
         let profiler = GpuProfiler::new(&gpu.device, settings)
             .map_err(|error| RenderError::Device(error.to_string()))?;
-        Ok(Timing { profiler, has_timestamps: gpu.timestamps })
+        Ok(Timing { profiler })
     }
 
     /// Records one compute pass whose time counts for `label`.

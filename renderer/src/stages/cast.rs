@@ -34,7 +34,7 @@ pub(crate) struct Cast {
 impl Cast {
     /// `count_inside`: count evaluations with a weight above zero too, which costs time.
     pub(crate) fn new(gpu: &Gpu, count_inside: bool) -> Cast {
-        use Access::{Read, Uniform, Write};
+        use Access::{Read, Texture, Uniform, Write};
         let pipeline = |kernel: &Kernel| {
             Pipeline::new(
                 gpu,
@@ -47,8 +47,8 @@ impl Cast {
                         ("COUNT_INSIDE", f64::from(u8::from(count_inside))),
                     ],
                     bindings: &[
-                        Uniform, Uniform, Uniform, Read, Read, Read, Read, Read, Read, Read, Read, Write,
-                        Write,
+                        Uniform, Uniform, Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Write,
+                        Texture,
                     ],
                 },
             )
@@ -99,7 +99,7 @@ impl Cast {
         bundles: u64,
     ) {
         let [frame, tile] = uniforms;
-        let buffers = [
+        let mut resources: Vec<_> = [
             frame,
             tile,
             &self.chunk,
@@ -109,16 +109,29 @@ impl Cast {
             &grid.cells,
             &grid.pairs,
             &self.layer_depth,
-            &transfer.nodes,
             &transfer.buckets,
             &self.pixels,
             &self.counters,
         ]
-        .map(Buffer::raw);
-        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &buffers, bundles);
+        .map(Buffer::binding)
+        .into();
+        resources.push(wgpu::BindingResource::TextureView(&transfer.nodes));
+        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
     }
 
     pub(crate) fn bytes(&self) -> u64 {
         self.pixels.bytes() + self.layer_depth.bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::layout::check_layout;
+
+    #[test]
+    fn chunks_lie_as_the_shader_expects() {
+        let source = [FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")].concat();
+        check_layout!(&source, "Chunk", Chunk, first_bundle, end_bundle, padding);
     }
 }

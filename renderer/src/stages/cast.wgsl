@@ -22,12 +22,12 @@ struct Chunk {
 @group(0) @binding(7) var<storage, read> pairs: array<u32>;
 // Depth of the middle of each layer of cells.
 @group(0) @binding(8) var<storage, read> layer_depth: array<f32>;
-@group(0) @binding(9) var<storage, read> nodes: array<Node>;
-@group(0) @binding(10) var<storage, read> buckets: array<u32>;
+@group(0) @binding(9) var<storage, read> buckets: array<u32>;
 // Premultiplied linear RGB and transparency, 64 pixels a bundle.
-@group(0) @binding(11) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> pixels: array<vec4<f32>>;
 // Evaluations and those with a weight above zero: low and high words.
-@group(0) @binding(12) var<storage, read_write> counters: array<atomic<u32>, 4>;
+@group(0) @binding(11) var<storage, read_write> counters: array<atomic<u32>, 4>;
+@group(0) @binding(12) var nodes: texture_2d<f32>;
 
 override COUNT_INSIDE: bool = false;
 
@@ -47,6 +47,14 @@ var<workgroup> tally: array<atomic<u32>, 4>;
 struct Ray {
     colour: vec3<f32>,
     transparency: f32,
+}
+
+// Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact
+// block of pixels and mostly meet the same particles. (Picture::place undoes this.)
+fn place_in_bundle(lane: u32) -> vec2<u32> {
+    let x = (lane & 1u) | (lane >> 1u & 2u) | (lane >> 2u & 4u);
+    let y = (lane >> 1u & 1u) | (lane >> 2u & 2u) | (lane >> 3u & 4u);
+    return vec2(x, y);
 }
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
@@ -215,7 +223,7 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     }
     let bundle = tile.first + vec2(index % tile.count.x, index / tile.count.x);
     let corner = vec2<f32>(bundle * BUNDLE_SIDE);
-    let in_bundle = vec2<f32>(vec2(lane % BUNDLE_SIDE, lane / BUNDLE_SIDE));
+    let in_bundle = vec2<f32>(place_in_bundle(lane));
     let axis = ray_slope(frame, corner + 3.5);
     // Exact: half pixels times the pitch.
     let from_axis = vec2(in_bundle.x - 3.5, 3.5 - in_bundle.y) * frame.pitch;

@@ -59,15 +59,15 @@ impl Grid {
         uniforms: [&Buffer; 2],
         store: &ParticleStore,
         tile: &Tile,
-        particles: u64,
     ) -> Result<(), RenderError> {
         encoder.clear_buffer(self.cells.raw(), 0, None);
         encoder.clear_buffer(self.totals.raw(), 0, None);
-        let [frame, tile_uniform] = uniforms.map(Buffer::raw);
-        let workgroups = particles.div_ceil(256);
+        let [frame, tile_uniform] = uniforms;
+        let workgroups = store.count().div_ceil(256);
         let mut result = Ok(());
         timing.pass(encoder, "grid", |pass| {
-            let buffers = [frame, tile_uniform, store.projected.raw(), self.cells.raw(), self.pairs.raw()];
+            let buffers =
+                [frame, tile_uniform, &store.projected, &self.cells, &self.pairs].map(Buffer::binding);
             self.count.dispatch(gpu, pass, &buffers, workgroups);
             result = self.scan.record(gpu, pass, &self.cells, &self.totals, tile.cells());
             self.scatter.dispatch(gpu, pass, &buffers, workgroups);

@@ -3,6 +3,8 @@
 
 pub(crate) mod cast;
 pub(crate) mod grid;
+#[cfg(test)]
+mod layout;
 pub(crate) mod project;
 pub(crate) mod scan;
 pub(crate) mod shared;

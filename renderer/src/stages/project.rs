@@ -30,10 +30,8 @@ impl Project {
         pass: &mut wgpu::ComputePass,
         frame: &Buffer,
         store: &ParticleStore,
-        particles: u64,
     ) {
-        let buffers =
-            [frame.raw(), store.high.raw(), store.low.raw(), store.projected.raw(), store.weights.raw()];
-        self.pipeline.dispatch(gpu, pass, &buffers, particles.div_ceil(256));
+        let buffers = [frame, &store.high, &store.low, &store.projected, &store.weights].map(Buffer::binding);
+        self.pipeline.dispatch(gpu, pass, &buffers, store.count().div_ceil(256));
     }
 }

@@ -64,12 +64,12 @@ impl Scan {
         for (level, uniform) in levels.iter().zip(&mut self.levels) {
             uniform.write(gpu, std::slice::from_ref(level))?;
             let blocks = u64::from(level.length).div_ceil(BLOCK);
-            self.scan.dispatch(gpu, pass, &[uniform.raw(), sums.raw(), totals.raw()], blocks);
+            self.scan.dispatch(gpu, pass, &[uniform.binding(), sums.binding(), totals.binding()], blocks);
         }
         // The topmost level is a single block, complete in itself.
         for (level, uniform) in levels.iter().zip(&self.levels).rev().skip(1) {
             let blocks = u64::from(level.length).div_ceil(BLOCK);
-            self.add.dispatch(gpu, pass, &[uniform.raw(), sums.raw(), totals.raw()], blocks);
+            self.add.dispatch(gpu, pass, &[uniform.binding(), sums.binding(), totals.binding()], blocks);
         }
         Ok(())
     }
@@ -93,6 +93,12 @@ fn levels(length: u64) -> Vec<Level> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn levels_lie_as_the_shader_expects() {
+        let source = [crate::stages::shared::FRAME_WGSL, include_str!("scan.wgsl")].concat();
+        crate::stages::layout::check_layout!(&source, "Level", Level, begin, next, length, count_cells);
+    }
 
     #[test]
     fn levels_shrink_to_one_block() {

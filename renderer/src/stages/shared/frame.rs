@@ -35,21 +35,21 @@ pub(crate) struct FrameUniform {
 }
 
 impl FrameUniform {
-    /// Constants of `scene`, whose rays are cut into `slices`; lengths in the particle set's unit.
-    pub(crate) fn new(scene: &Scene, slices: &Slices) -> FrameUniform {
+    /// Constants of `scene`, whose rays are cut into `slices`, with `particle_count` particles on the
+    /// device; lengths in the particle set's unit.
+    pub(crate) fn new(scene: &Scene, slices: &Slices, particle_count: u64) -> FrameUniform {
         let camera = &scene.camera;
         let particles = &scene.particles;
         let unit = particles.unit();
         let eye = particles.to_device(camera.eye);
         let eye_high = eye.as_vec3();
         let eye_low = (eye - eye_high.as_dvec3()).as_vec3();
-        let pitch = 2.0 * camera.tan_half_fov / f64::from(scene.height);
         let step = slices.log_step;
         // Slices of a cell lie symmetric about its middle, 8 slices in.
         let from_middle = |slice: f64| slice - f64::from(CELL_SLICES) / 2.0;
         FrameUniform {
             right: single(camera.right),
-            pitch: pitch as f32,
+            pitch: pitch(scene) as f32,
             up: single(camera.up),
             near: (camera.near / unit) as f32,
             forward: single(camera.forward),
@@ -57,9 +57,9 @@ impl FrameUniform {
             eye_high: eye_high.to_array(),
             log_step: step as f32,
             eye_low: eye_low.to_array(),
-            radius_floor: (RADIUS_FLOOR * pitch.max(step.exp_m1())) as f32,
+            radius_floor: radius_floor(scene, slices) as f32,
             size: [scene.width, scene.height],
-            particle_count: particles.len() as u32,
+            particle_count: particle_count as u32,
             path_scale: (unit / scene.reference_length) as f32,
             sample_offset: std::array::from_fn(|k| (from_middle(k as f64 + 0.5) * step).exp_m1() as f32),
             slab_depth: std::array::from_fn(|k| {
@@ -67,6 +67,16 @@ impl FrameUniform {
             }),
         }
     }
+}
+
+/// Smallest support radius that cannot fall between samples, in units of view depth.
+pub(crate) fn radius_floor(scene: &Scene, slices: &Slices) -> f64 {
+    RADIUS_FLOOR * pitch(scene).max(slices.log_step.exp_m1())
+}
+
+/// Slope between neighbouring pixel centres.
+pub(crate) fn pitch(scene: &Scene) -> f64 {
+    2.0 * scene.camera.tan_half_fov / f64::from(scene.height)
 }
 
 fn single(v: DVec3) -> [f32; 3] {
@@ -95,5 +105,47 @@ impl TileUniform {
             pair_capacity: u32::try_from(pair_capacity).unwrap_or(u32::MAX),
             padding: 0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::layout::check_layout;
+    use crate::stages::shared::FRAME_WGSL;
+
+    #[test]
+    fn uniforms_lie_as_the_shaders_expect() {
+        check_layout!(
+            FRAME_WGSL,
+            "Frame",
+            FrameUniform,
+            right,
+            pitch,
+            up,
+            near,
+            forward,
+            far,
+            eye_high,
+            log_step,
+            eye_low,
+            radius_floor,
+            size,
+            particle_count,
+            path_scale,
+            sample_offset,
+            slab_depth
+        );
+        check_layout!(
+            FRAME_WGSL,
+            "Tile",
+            TileUniform,
+            first,
+            count,
+            first_layer,
+            layers,
+            pair_capacity,
+            padding
+        );
     }
 }

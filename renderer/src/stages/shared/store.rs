@@ -1,5 +1,7 @@
 //! The particles on the device.
 
+use rayon::prelude::*;
+
 use crate::error::RenderError;
 use crate::gpu::{Buffer, Gpu};
 use crate::particles::{ParticleSet, Quantity};
@@ -15,8 +17,10 @@ pub(crate) struct ParticleStore {
     pub projected: Buffer,
     /// Weight for the projected radius.
     pub weights: Buffer,
+    /// Which sets are here as a whole, by their ids; 0 for none.
     particles: u64,
     quantity: u64,
+    count: u64,
 }
 
 impl ParticleStore {
@@ -29,10 +33,11 @@ impl ParticleStore {
             weights: Buffer::storage(gpu, "particle weights", 4),
             particles: 0,
             quantity: 0,
+            count: 0,
         }
     }
 
-    /// Brings the sets to the device where they are not there yet; true if any was copied.
+    /// Brings the sets to the device where they are not there yet; true if that moved particles.
     pub(crate) fn upload(
         &mut self,
         gpu: &Gpu,
@@ -40,23 +45,43 @@ impl ParticleStore {
         quantity: &Quantity,
     ) -> Result<bool, RenderError> {
         let count = particles.len() as u64;
-        let mut copied = false;
-        if self.particles != particles.id() {
+        let moved = self.particles != particles.id();
+        if moved {
             self.particles = 0;
             self.projected.reserve(gpu, count)?;
             self.weights.reserve(gpu, count)?;
             self.high.write(gpu, &particles.high)?;
             self.low.write(gpu, &particles.low)?;
-            self.particles = particles.id();
-            copied = true;
+            (self.particles, self.count) = (particles.id(), count);
         }
         if self.quantity != quantity.id() {
             self.quantity = 0;
             self.quantities.write(gpu, &quantity.values)?;
             self.quantity = quantity.id();
-            copied = true;
         }
-        Ok(copied)
+        Ok(moved)
+    }
+
+    /// Brings only the particles with the indices `chosen` to the device, in that order.
+    pub(crate) fn upload_some(
+        &mut self,
+        gpu: &Gpu,
+        particles: &ParticleSet,
+        quantity: &Quantity,
+        chosen: &[u32],
+    ) -> Result<(), RenderError> {
+        (self.particles, self.quantity) = (0, 0);
+        self.count = chosen.len() as u64;
+        self.projected.reserve(gpu, self.count)?;
+        self.weights.reserve(gpu, self.count)?;
+        self.high.write(gpu, &gather(&particles.high, chosen))?;
+        self.low.write(gpu, &gather(&particles.low, chosen))?;
+        self.quantities.write(gpu, &gather(&quantity.values, chosen))
+    }
+
+    /// Number of particles on the device.
+    pub(crate) fn count(&self) -> u64 {
+        self.count
     }
 
     pub(crate) fn bytes(&self) -> u64 {
@@ -65,4 +90,8 @@ impl ParticleStore {
             .iter()
             .sum()
     }
+}
+
+fn gather<T: Copy + Send + Sync>(values: &[T], chosen: &[u32]) -> Vec<T> {
+    chosen.par_iter().map(|&index| values[index as usize]).collect()
 }

@@ -6,30 +6,37 @@ use crate::error::RenderError;
 use crate::gpu::{Buffer, Gpu};
 use crate::transfer::{ControlPoint, TransferFunction};
 
-/// `Node` of `transfer.wgsl`.
+/// A row of the node texture (`transfer.wgsl`): three texels.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Node {
-    pub value: [f32; 4],
-    pub change: [f32; 4],
-    pub u: f32,
-    pub inverse_width: f32,
-    pub padding: [f32; 2],
+struct Node {
+    /// Colour and opacity at `u`.
+    value: [f32; 4],
+    /// Their change up to the next node.
+    change: [f32; 4],
+    u: f32,
+    /// 1/(u of the next node − u); 0 at a step.
+    inverse_width: f32,
+    next_u: f32,
+    padding: f32,
 }
+
+const TEXELS_PER_NODE: u32 = 3;
+const TEXEL_BYTES: u32 = 16;
 
 /// `BUCKETS` of `transfer.wgsl`.
 const BUCKETS: usize = 256;
 
 /// Nodes of the transfer function, and the node at the start of each of 256 parts of [0, 1].
 pub(crate) struct TransferTables {
-    pub nodes: Buffer,
+    pub nodes: wgpu::TextureView,
     pub buckets: Buffer,
 }
 
 impl TransferTables {
     pub(crate) fn new(gpu: &Gpu) -> TransferTables {
         TransferTables {
-            nodes: Buffer::storage(gpu, "transfer nodes", size_of::<Node>() as u64),
+            nodes: node_texture(gpu, 1).create_view(&Default::default()),
             buckets: Buffer::storage(gpu, "transfer buckets", 4),
         }
     }
@@ -37,9 +44,34 @@ impl TransferTables {
     pub(crate) fn write(&mut self, gpu: &Gpu, transfer: &TransferFunction) -> Result<(), RenderError> {
         let nodes = nodes(transfer);
         self.buckets.write(gpu, &buckets(&nodes))?;
-        self.nodes.write(gpu, &nodes)?;
+        let texture = node_texture(gpu, nodes.len() as u32);
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(TEXELS_PER_NODE * TEXEL_BYTES),
+            rows_per_image: None,
+        };
+        gpu.queue.write_texture(
+            texture.as_image_copy(),
+            bytemuck::cast_slice(&nodes),
+            layout,
+            texture.size(),
+        );
+        self.nodes = texture.create_view(&Default::default());
         Ok(())
     }
+}
+
+fn node_texture(gpu: &Gpu, nodes: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("transfer nodes"),
+        size: wgpu::Extent3d { width: TEXELS_PER_NODE, height: nodes, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
 }
 
 /// Control points, continued to u = 0 and to one node beyond u = 1.
@@ -60,6 +92,7 @@ fn nodes(transfer: &TransferFunction) -> Vec<Node> {
                 value: a,
                 change,
                 u: pair[0].u,
+                next_u: pair[1].u,
                 inverse_width: inverse_width.min(f32::MAX),
                 ..Node::zeroed()
             }
@@ -85,7 +118,7 @@ mod tests {
     /// The shader's lookup, line by line.
     fn lookup(nodes: &[Node], buckets: &[u32], u: f32) -> [f32; 4] {
         let mut node = buckets[(u * BUCKETS as f32) as usize] as usize;
-        while nodes[node + 1].u <= u {
+        while nodes[node].next_u <= u {
             node += 1;
         }
         let left = nodes[node];

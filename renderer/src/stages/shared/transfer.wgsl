@@ -1,26 +1,22 @@
 // Transfer function and absorption. Nodes cover [0, 1] without a gap; the last one lies beyond 1.
 
-struct Node {
-    // Colour and opacity at u.
-    value: vec4<f32>,
-    // Their change up to the next node.
-    change: vec4<f32>,
-    u: f32,
-    // 1/(u of the next node − u); 0 at a step.
-    inverse_width: f32,
-    padding: vec2<f32>,
-}
+// A texture, not a buffer: a texel is one fetch of four numbers. A row a node: the colour and opacity
+// at its u; their change up to the next node; its u, 1/(u of the next node − u) or 0 at a step, and
+// the u of the next node.
 
 const BUCKETS: f32 = 256.0;
 
 // Colour and opacity at u in [0, 1].
 fn transfer_at(u: f32) -> vec4<f32> {
     var node = buckets[u32(u * BUCKETS)];
-    while nodes[node + 1u].u <= u {
+    var place = textureLoad(nodes, vec2(2u, node), 0);
+    while place.z <= u {
         node += 1u;
+        place = textureLoad(nodes, vec2(2u, node), 0);
     }
-    let left = nodes[node];
-    return left.value + ((u - left.u) * left.inverse_width) * left.change;
+    let value = textureLoad(nodes, vec2(0u, node), 0);
+    let change = textureLoad(nodes, vec2(1u, node), 0);
+    return value + ((u - place.x) * place.y) * change;
 }
 
 // ln(1 − α), with full relative precision for small α; very negative, but finite, for α = 1.

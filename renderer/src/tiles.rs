@@ -1,0 +1,206 @@
+//! One tile of a picture: its particles, its grid, its rays, its pixels.
+
+use std::time::Instant;
+
+use crate::camera::Slices;
+use crate::error::RenderError;
+use crate::picture::Picture;
+use crate::plan::{Tile, TileLimits};
+use crate::renderer::{Geometry, GridSize, Progress, Renderer};
+use crate::scene::Scene;
+use crate::selection;
+use crate::stages::shared::{FrameUniform, TileUniform};
+use crate::stats::Milliseconds;
+
+/// What every tile of a picture shares.
+pub(crate) struct Job<'a> {
+    pub scene: &'a Scene,
+    pub slices: Slices,
+    pub geometry: Geometry,
+    pub limits: TileLimits,
+    /// The particles are on the device as a whole.
+    pub resident: bool,
+    /// The picture is a single tile, whose grid serves the next picture too.
+    pub only_tile: bool,
+}
+
+/// The device cannot hold what a tile needs: `what`, in so many `bytes`.
+pub(crate) struct TooLarge {
+    pub what: &'static str,
+    pub bytes: u64,
+}
+
+/// First guess of the references that one particle needs; an overflow tells the true number.
+const PAIRS_PER_PARTICLE: u64 = 8;
+
+impl Renderer {
+    /// Has the grid of `tile` on the device, built anew where it is not there yet.
+    pub(crate) fn prepare_tile(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        times: &mut Milliseconds,
+    ) -> Result<Result<GridSize, TooLarge>, RenderError> {
+        let fresh = self.sorted.take().filter(|(sorted, _)| job.only_tile && *sorted == job.geometry);
+        let size = match fresh {
+            Some((_, size)) => size,
+            None => match self.build_grid(job, tile, times)? {
+                Ok(size) => size,
+                too_large => return Ok(too_large),
+            },
+        };
+        self.sorted = job.only_tile.then(|| (job.geometry.clone(), size));
+        Ok(Ok(size))
+    }
+
+    fn build_grid(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        times: &mut Milliseconds,
+    ) -> Result<Result<GridSize, TooLarge>, RenderError> {
+        if !job.resident
+            && let Some(too_large) = self.upload_tile(job, tile, times)?
+        {
+            return Ok(Err(too_large));
+        }
+        let frame = FrameUniform::new(job.scene, &job.slices, self.store.count());
+        self.frame.write(&self.gpu, &[frame])?;
+        self.grid.reserve(&self.gpu, tile)?;
+        self.sort_pairs(job, tile, times)
+    }
+
+    /// Brings the particles of `tile` to the device.
+    fn upload_tile(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        times: &mut Milliseconds,
+    ) -> Result<Option<TooLarge>, RenderError> {
+        let begin = Instant::now();
+        let chosen = selection::touching(job.scene, &job.slices, tile);
+        let count = chosen.len() as u64;
+        if count > job.limits.particles {
+            return Ok(Some(TooLarge { what: "the particles of one cell", bytes: count * 16 }));
+        }
+        let (particles, quantity) = (&job.scene.particles, &job.scene.quantity);
+        self.store.upload_some(&self.gpu, particles, quantity, &chosen)?;
+        self.projected = None;
+        times.upload += begin.elapsed().as_secs_f64() * 1e3;
+        Ok(None)
+    }
+
+    /// Projects where that is stale, and sorts the particles into the cells of `tile`; grows the pair
+    /// buffer and sorts again where it was too small.
+    fn sort_pairs(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        times: &mut Milliseconds,
+    ) -> Result<Result<GridSize, TooLarge>, RenderError> {
+        let particles = self.store.count();
+        let limit = job.limits.pairs;
+        self.grid.pairs.reserve(&self.gpu, (particles * PAIRS_PER_PARTICLE).clamp(1, limit))?;
+        loop {
+            let capacity = self.grid.pairs.capacity().min(limit);
+            self.tile.write(&self.gpu, &[TileUniform::new(tile, capacity)])?;
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            if self.projected.as_ref() != Some(&job.geometry) {
+                self.timing.pass(&mut encoder, "grid", |pass| {
+                    self.project.record(&self.gpu, pass, &self.frame, &self.store);
+                });
+            }
+            let uniforms = [&self.frame, &self.tile];
+            self.grid.record(&self.gpu, &mut encoder, &self.timing, uniforms, &self.store, tile)?;
+            let totals = self.grid.totals.read_back(&self.gpu, &mut encoder, 1);
+            self.submit(encoder, times)?;
+            let totals: Vec<u32> = totals.take(&self.gpu)?;
+            self.projected = Some(job.geometry.clone());
+
+            let needed = u64::from(totals[0]);
+            if needed <= capacity {
+                return Ok(Ok(GridSize { pairs: needed, cells: u64::from(totals[1]) }));
+            }
+            if needed > limit {
+                return Ok(Err(TooLarge { what: "the particle references of one cell", bytes: needed * 4 }));
+            }
+            // Some room to spare: the next camera may need a little more.
+            self.grid.pairs.reserve(&self.gpu, (needed + needed / 8).min(limit))?;
+        }
+    }
+
+    /// Casts the rays of `tile` in submissions of bounded length, and puts its pixels into the picture.
+    pub(crate) fn cast_tile(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        progress: &mut Progress,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
+        self.cast.reserve(&self.gpu, tile)?;
+        let bundles = tile.bundles();
+        let mut first = 0;
+        while first < bundles {
+            if progress(first as f32 / bundles as f32).is_break() {
+                return Err(RenderError::Cancelled);
+            }
+            let end = bundles.min(first + self.pace.bundles());
+            self.cast.write_chunk(&self.gpu, first..end)?;
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            if first == 0 {
+                encoder.clear_buffer(self.cast.counters.raw(), 0, None);
+            }
+            self.timing.pass(&mut encoder, "ray cast", |pass| {
+                let uniforms = [&self.frame, &self.tile];
+                let (store, grid, transfer) = (&self.store, &self.grid, &self.transfer);
+                let kernel = job.scene.kernel;
+                self.cast.record(&self.gpu, pass, kernel, uniforms, store, grid, transfer, end - first);
+            });
+            let begin = Instant::now();
+            self.submit(encoder, &mut picture.stats.milliseconds)?;
+            self.pace.learn(end - first, begin.elapsed());
+            first = end;
+        }
+        self.fetch_tile(tile, picture)
+    }
+
+    /// Submits, waits, and adds the time of each stage.
+    fn submit(
+        &mut self,
+        mut encoder: wgpu::CommandEncoder,
+        times: &mut Milliseconds,
+    ) -> Result<(), RenderError> {
+        self.timing.resolve(&mut encoder);
+        let begin = Instant::now();
+        self.gpu.queue.submit([encoder.finish()]);
+        let mut stages = self.timing.take(&self.gpu)?;
+        if !self.gpu.timestamps {
+            // The host's clock is all there is: a submission holds one stage.
+            stages.truncate(1);
+            stages.iter_mut().for_each(|(_, time)| *time = begin.elapsed().as_secs_f64() * 1e3);
+        }
+        for (label, time) in stages {
+            match label.as_str() {
+                "grid" => times.grid += time,
+                _ => times.ray_cast += time,
+            }
+        }
+        Ok(())
+    }
+
+    fn fetch_tile(&self, tile: &Tile, picture: &mut Picture) -> Result<(), RenderError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let pixels = self.cast.pixels.read_back(&self.gpu, &mut encoder, tile.bundles() * 64);
+        let counters = self.cast.counters.read_back(&self.gpu, &mut encoder, 1);
+        self.gpu.queue.submit([encoder.finish()]);
+        let pixels: Vec<[f32; 4]> = pixels.take(&self.gpu)?;
+        let counters: Vec<u32> = counters.take(&self.gpu)?;
+        let words = |low: usize| u64::from(counters[low]) | u64::from(counters[low + 1]) << 32;
+        let evaluations = &mut picture.stats.evaluations;
+        evaluations.full += words(0);
+        evaluations.done += words(0);
+        evaluations.inside += words(2);
+        picture.place(tile, &pixels);
+        Ok(())
+    }
+}
