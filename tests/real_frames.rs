@@ -9,24 +9,20 @@ use reference::device::assert_alike;
 use reference::scenes::Scene;
 use renderer::View;
 use sphcast::frames::Frame;
-use sphcast::frames::readers::ReadError;
+use sphcast::frames::readers::{vtk_legacy, vtk_xml};
 
 /// Side of the pictures in pixels.
 const SIDE: u32 = 96;
 
-/// Reads any format.
-type Reader = fn(&Path) -> Result<Frame, ReadError>;
-
-/// `None` until the readers are there.
-const READER: Option<Reader> = None;
-
 /// What the frame of `file` says; `None` where it is absent.
 fn read(file: &Path) -> Option<Frame> {
-    let Some(reader) = READER.filter(|_| file.is_file()) else {
-        println!("skipped: {} is absent, or there is no reader for it", file.display());
+    if !file.is_file() {
+        println!("skipped: {} is absent", file.display());
         return None;
-    };
-    Some(reader(file).unwrap_or_else(|error| panic!("{error}")))
+    }
+    let bytes = std::fs::read(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    let parse = if file.extension().is_some_and(|e| e == "vtu") { vtk_xml::parse } else { vtk_legacy::parse };
+    Some(parse(&bytes).unwrap_or_else(|fault| panic!("{}: {fault:?}", file.display())))
 }
 
 /// The frame `data` seen with `view`, both as named in the folder of shared data.

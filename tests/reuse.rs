@@ -40,8 +40,10 @@ impl Held {
     }
 }
 
-/// Changes of a scene, by their names.
-const CHANGES: [(&str, fn(&mut Held)); 11] = [
+/// What is changed, and how.
+type Change = (&'static str, fn(&mut Held));
+
+const CHANGES: [Change; 11] = [
     ("the same again", |_| ()),
     ("another transfer function", |held| {
         held.view.transfer.points = vec![grey(0.0, 0.1, 0.3), grey(0.4, 0.9, 0.02), grey(1.0, 0.2, 0.2)];
