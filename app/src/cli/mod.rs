@@ -1,0 +1,157 @@
+//! The command line (contract, section 3).
+
+mod compare;
+mod info;
+mod interrupt;
+mod output;
+mod render;
+mod survey;
+mod timed;
+mod view;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use renderer::GpuOptions;
+
+use crate::frames::{FrameRange, Sequence};
+use crate::viewer;
+
+pub use view::ViewArguments;
+
+/// Desktop viewer for SPH particle runs: ray casts the particles themselves on the GPU, with a
+/// bound on the error of the picture.
+#[derive(Parser)]
+#[command(name = "sphcast", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    window: WindowArguments,
+}
+
+const EXAMPLES: &str = "\
+FILE is a frame of a run (.vtk, .vtu, .vtp, .bgeo, .ply, .xyz, .csv, .npz, .npy, .hdf5), or a whole run: \
+several files, a directory, a pattern in quotes, a .pvd. `demo` is the embedded run, `demo:radial:N` and \
+`demo:checker:N` are generated scenes of N particles.
+
+Examples:
+  sphcast                            the viewer with the embedded run
+  sphcast dambreak/                  the viewer with a directory of frames
+  sphcast render demo --frames 12 --out mixer.png";
+
+#[derive(Subcommand)]
+enum Command {
+    Render(render::RenderArguments),
+    Info(info::InfoArguments),
+    Compare(compare::CompareArguments),
+}
+
+/// What the viewer is opened with.
+#[derive(clap::Args)]
+pub struct WindowArguments {
+    /// Frames to show; the embedded run without any
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub view: ViewArguments,
+    #[command(flatten)]
+    pub device: DeviceArguments,
+    /// Write a line on standard error for each thing that happens
+    #[arg(long)]
+    pub log_events: bool,
+}
+
+/// Which device renders.
+#[derive(clap::Args)]
+pub struct DeviceArguments {
+    /// Graphics adapter to use: part of its name
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+impl DeviceArguments {
+    fn options(&self) -> GpuOptions {
+        GpuOptions { adapter: self.adapter.clone(), memory: None }
+    }
+}
+
+/// The frames that a command works on.
+#[derive(clap::Args)]
+struct SequenceArguments {
+    /// Frames of a run: files, a directory, a pattern, a .pvd, demo, demo:radial:N, demo:checker:N
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Only some of the frames, counted from 0, B left out: A..B, A.., ..B, or one number
+    #[arg(long, value_name = "A..B")]
+    frames: Option<FrameRange>,
+}
+
+/// An opened run, and which number its first frame had before `--frames` cut it.
+struct Run {
+    sequence: Sequence,
+    first: usize,
+}
+
+impl SequenceArguments {
+    fn open(&self) -> anyhow::Result<Run> {
+        let mut sequence = Sequence::open(&self.files)?;
+        for note in sequence.notes() {
+            eprintln!("note: {note}");
+        }
+        let Some(range) = &self.frames else {
+            return Ok(Run { sequence, first: 0 });
+        };
+        let range =
+            range.within(sequence.len()).map_err(|what| WrongArguments(format!("--frames: {what}")))?;
+        sequence.select(range.clone());
+        Ok(Run { sequence, first: range.start })
+    }
+}
+
+/// An error in how the program was called that only shows once files were looked at.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct WrongArguments(String);
+
+/// Runs the command line and returns the exit status: 0, 1 for a failure, 2 for wrong arguments.
+pub fn run(arguments: impl Iterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version come this way, too. Nobody is left to tell where this fails.
+            let _ = error.print();
+            return ExitCode::from(error.exit_code() as u8);
+        }
+    };
+    let result = match &arguments.command {
+        None => open_window(&arguments.window),
+        Some(Command::Render(arguments)) => render::run(arguments),
+        Some(Command::Info(arguments)) => info::run(arguments),
+        Some(Command::Compare(arguments)) => compare::run(arguments),
+    };
+    let Err(error) = result else {
+        return ExitCode::SUCCESS;
+    };
+    eprintln!("error: {}", one_line(&error));
+    ExitCode::from(if error.is::<WrongArguments>() { 2 } else { 1 })
+}
+
+/// An error with its causes, on one line.
+fn one_line(error: &anyhow::Error) -> String {
+    format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
+    let sequence = Sequence::open(&arguments.files)?;
+    let view = arguments.view.resolve(&sequence)?;
+    viewer::run(viewer::Options {
+        sequence,
+        view,
+        fixed_size: arguments.view.size.is_some(),
+        gpu: arguments.device.options(),
+        log_events: arguments.log_events,
+    })
+}

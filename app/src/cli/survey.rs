@@ -1,0 +1,38 @@
+//! What all frames of a run have in common, for a film that does not flicker.
+
+use renderer::{Bounds, Camera, View};
+
+use crate::frames::Frame;
+use crate::scene;
+
+/// Room that the particles of the frames seen so far take, in the unit of the run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Survey {
+    bounds: Option<Bounds>,
+    largest_radius: f64,
+}
+
+impl Survey {
+    pub fn add(&mut self, frame: &Frame, view: &View) {
+        // A frame that makes no particle set fails when it is rendered, and is told then.
+        let Ok(particles) = scene::particles(frame, view.particles.support_radius) else {
+            return;
+        };
+        self.bounds = match (self.bounds, particles.bounds()) {
+            (Some(all), Some(new)) => Some(all.union(&new)),
+            (all, new) => all.or(new),
+        };
+        self.largest_radius = self.largest_radius.max(particles.support_radii()[1]);
+    }
+
+    /// Fills in the camera and the reference length that `view` leaves open, as
+    /// [`Scene::new`](renderer::Scene::new) does for one frame.
+    pub fn settle(&self, view: &mut View) {
+        let aspect = f64::from(view.image.width) / f64::from(view.image.height);
+        view.camera.get_or_insert_with(|| Camera::overview(self.bounds, self.largest_radius, aspect));
+        if let Some(bounds) = self.bounds {
+            let length = (bounds.diagonal() + 2.0 * self.largest_radius) / 30.0;
+            view.transfer.reference_length.get_or_insert(length);
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Pictures in files: PNG for the eye, EXR for measuring. Written whole or not at all.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use anyhow::{Context, anyhow, bail};
+use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Rgba32FImage};
+
+/// Premultiplied linear RGBA, row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pixels {
+    pub width: u32,
+    pub height: u32,
+    /// width·height pixels, row after row.
+    pub data: Vec<[f32; 4]>,
+}
+
+/// The formats that pictures are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// sRGB, 8 bits a channel, straight alpha.
+    Png,
+    /// 32-bit floats, linear, premultiplied.
+    Exr,
+}
+
+impl Format {
+    /// The format that a file name ends in, in any case; `None` for other endings.
+    pub fn of(path: &Path) -> Option<Format> {
+        match path.extension()?.to_str()?.to_lowercase().as_str() {
+            "png" => Some(Format::Png),
+            "exr" => Some(Format::Exr),
+            _ => None,
+        }
+    }
+}
+
+/// Writes a picture in the format that the name of `path` ends in. A PNG shows it over `background`
+/// (linear), opaque, where there is one; an EXR never does.
+///
+/// # Errors
+/// Another ending, a picture without pixels, or whatever the system has against the file; the path
+/// comes first.
+pub fn write(path: &Path, pixels: &Pixels, background: Option<[f32; 3]>) -> anyhow::Result<()> {
+    let Some(format) = Format::of(path) else {
+        bail!("{}: a picture's name ends in .png or .exr", path.display());
+    };
+    let bytes = match format {
+        Format::Png => png(pixels, background),
+        Format::Exr => exr(pixels),
+    };
+    write_whole(path, &bytes.with_context(|| path.display().to_string())?)
+}
+
+/// Reads a picture back: an EXR as it is (opaque where it has no alpha), a PNG to premultiplied
+/// linear light.
+///
+/// # Errors
+/// A file that cannot be read, or is neither; the path comes first.
+pub fn read(path: &Path) -> anyhow::Result<Pixels> {
+    let name = || path.display().to_string();
+    let bytes = std::fs::read(path).with_context(name)?;
+    // The content tells the format, whatever the name says.
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().with_context(name)?;
+    let linear = match reader.format() {
+        Some(ImageFormat::OpenExr) => true,
+        Some(ImageFormat::Png) => false,
+        _ => bail!("{}: is neither a PNG nor an EXR picture", path.display()),
+    };
+    let image = reader.decode().with_context(name)?.into_rgba32f();
+    let (width, height) = image.dimensions();
+    let straight = |[r, g, b, a]: [f32; 4]| {
+        let [r, g, b] = [r, g, b].map(|c| to_linear(c) * a);
+        [r, g, b, a]
+    };
+    let data = image.pixels().map(|pixel| if linear { pixel.0 } else { straight(pixel.0) }).collect();
+    Ok(Pixels { width, height, data })
+}
+
+/// Writes `bytes` to `path` so that a reader, and whoever comes after a crash, finds the old file or
+/// the new one, and never a part.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let write = || -> std::io::Result<()> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".sphcast-");
+        // A temporary file is for its owner's eyes only; the picture is as open as other new files.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().map_err(|error| anyhow!("{}: cannot be written: {}", path.display(), describe(&error)))
+}
+
+/// What the system says, without the name of the temporary file.
+fn describe(error: &std::io::Error) -> String {
+    error.kind().to_string()
+}
+
+fn png(pixels: &Pixels, background: Option<[f32; 3]>) -> anyhow::Result<Vec<u8>> {
+    let bytes: Vec<u8> = pixels.data.iter().flat_map(|&pixel| to_srgb8(pixel, background)).collect();
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new(&mut png);
+    encoder.write_image(&bytes, pixels.width, pixels.height, ExtendedColorType::Rgba8)?;
+    Ok(png)
+}
+
+fn exr(pixels: &Pixels) -> anyhow::Result<Vec<u8>> {
+    let image = Rgba32FImage::from_raw(pixels.width, pixels.height, pixels.data.as_flattened().to_vec())
+        .ok_or_else(|| anyhow!("the picture is not whole"))?;
+    let mut exr = Cursor::new(Vec::new());
+    DynamicImage::ImageRgba32F(image).write_to(&mut exr, ImageFormat::OpenExr)?;
+    Ok(exr.into_inner())
+}
+
+/// One pixel of a PNG: over the background and opaque, or with straight alpha.
+pub fn to_srgb8([r, g, b, a]: [f32; 4], background: Option<[f32; 3]>) -> [u8; 4] {
+    let a = a.clamp(0.0, 1.0);
+    let (rgb, alpha) = match background {
+        Some(behind) => (std::array::from_fn(|i| [r, g, b][i] + (1.0 - a) * behind[i]), 1.0),
+        None if a > 0.0 => ([r, g, b].map(|c| c / a), a),
+        None => ([0.0; 3], 0.0),
+    };
+    let byte = |c: f32| (c.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let [r, g, b] = rgb.map(|c: f32| byte(to_srgb(c)));
+    [r, g, b, byte(alpha)]
+}
+
+/// The transfer curve of IEC 61966-2-1.
+fn to_srgb(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+fn to_linear(srgb: f32) -> f32 {
+    if srgb <= 0.040_45 { srgb / 12.92 } else { ((srgb + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gradient() -> Pixels {
+        let pixel = |i: u32| {
+            let a = i as f32 / 63.0;
+            [0.9 * a, 0.5 * a * a, 0.1 * a, a]
+        };
+        Pixels { width: 8, height: 8, data: (0..64).map(pixel).collect() }
+    }
+
+    fn largest_difference(a: &Pixels, b: &Pixels) -> f32 {
+        let pairs = a.data.as_flattened().iter().zip(b.data.as_flattened());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn exr_keeps_every_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        let mut pixels = gradient();
+        pixels.data[5] = [1e-30, 1.5, 3.0e5, 0.25];
+        write(&path, &pixels, Some([1.0; 3])).unwrap();
+        assert_eq!(read(&path).unwrap(), pixels);
+    }
+
+    #[test]
+    fn png_keeps_what_eight_bits_can() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.PNG");
+        write(&path, &gradient(), None).unwrap();
+        let back = read(&path).unwrap();
+        assert!(largest_difference(&back, &gradient()) < 0.01);
+        assert!(largest_difference(&back, &gradient()) > 0.0);
+    }
+
+    #[test]
+    fn a_background_makes_it_opaque() {
+        assert_eq!(to_srgb8([0.0; 4], Some([1.0, 0.0, 0.214_041_14])), [255, 0, 128, 255]);
+        assert_eq!(to_srgb8([0.0; 4], None), [0; 4]);
+        assert_eq!(to_srgb8([0.25, 0.0, 0.0, 0.25], None), [255, 0, 0, 64]);
+        assert_eq!(to_srgb8([f32::NAN, 2.0, -1.0, 1.0], None), [0, 255, 0, 255]);
+    }
+
+    #[test]
+    fn errors_name_the_file_and_leave_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let wrong = write(&folder.path().join("a.jpg"), &gradient(), None).unwrap_err();
+        assert!(format!("{wrong:#}").contains("a.jpg: a picture's name ends in"));
+        let missing = write(&folder.path().join("no/a.png"), &gradient(), None).unwrap_err();
+        assert!(format!("{missing:#}").contains("a.png: cannot be written"));
+        let target = folder.path().join("b.png");
+        std::fs::create_dir(&target).unwrap();
+        assert!(write(&target, &gradient(), None).is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        std::fs::write(folder.path().join("c.png"), "no picture").unwrap();
+        assert!(read(&folder.path().join("c.png")).is_err());
+    }
+}

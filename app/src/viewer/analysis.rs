@@ -1,0 +1,121 @@
+//! The distribution of a quantity over a frame, for the range and for the histogram.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::frames::Frame;
+use crate::scene::Selection;
+
+/// Bars of a histogram.
+pub const BARS: usize = 128;
+
+/// What is to be counted.
+#[derive(Clone)]
+pub struct Question {
+    pub index: usize,
+    pub frame: Arc<Frame>,
+    /// The quantity's name, as a view has it.
+    pub quantity: Option<String>,
+    /// The range that the bars divide; the frame's own where it is `None`.
+    pub range: Option<[f64; 2]>,
+}
+
+/// What was counted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    pub index: usize,
+    pub quantity: Option<String>,
+    /// Finite minimum and maximum over the frame.
+    pub extremes: Option<[f64; 2]>,
+    /// As asked for.
+    pub range: Option<[f64; 2]>,
+    /// Particles in each bar; those outside the range are in none.
+    pub bars: Vec<u64>,
+}
+
+impl Question {
+    /// Whether `answer` is the answer to this question.
+    pub fn is_answered_by(&self, answer: &Analysis) -> bool {
+        self.index == answer.index && self.quantity == answer.quantity && self.range == answer.range
+    }
+
+    /// Counts, on all threads. A quantity that the frame lacks has an empty answer.
+    pub fn answer(&self) -> Analysis {
+        let mut analysis = Analysis {
+            index: self.index,
+            quantity: self.quantity.clone(),
+            extremes: None,
+            range: self.range,
+            bars: vec![0; BARS],
+        };
+        let Ok(selection) = Selection::new(&self.frame, self.quantity.as_deref()) else { return analysis };
+        let rows = || {
+            (0..self.frame.len()).into_par_iter().map(|row| selection.value(row)).filter(|q| q.is_finite())
+        };
+        let [low, high] = rows()
+            .fold(|| NOTHING, |[low, high], q| [low.min(q), high.max(q)])
+            .reduce(|| NOTHING, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        if low > high {
+            return analysis;
+        }
+        analysis.extremes = Some([low, high]);
+        let [low, high] = self.range.unwrap_or([low, high]);
+        let width = high - low;
+        let bar = |q: f64| match width > 0.0 {
+            true => ((q - low) / width * BARS as f64) as usize,
+            false => BARS / 2,
+        };
+        analysis.bars = rows()
+            .filter(|q| (low..=high).contains(q))
+            .fold(
+                || vec![0; BARS],
+                |mut bars, q| {
+                    bars[bar(q).min(BARS - 1)] += 1;
+                    bars
+                },
+            )
+            .reduce(|| vec![0; BARS], |a, b| a.into_iter().zip(b).map(|(a, b)| a + b).collect());
+        analysis
+    }
+}
+
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::{Column, Field, Metadata};
+
+    fn question(values: &[f64], range: Option<[f64; 2]>) -> Question {
+        let positions = Column::new(3, vec![0.0; 3 * values.len()]).unwrap();
+        let field = Field { name: "q".into(), column: Column::scalars(values.to_vec()) };
+        let frame = Frame::new(positions, vec![field], Metadata::default()).unwrap();
+        Question { index: 3, frame: Arc::new(frame), quantity: Some("q".into()), range }
+    }
+
+    #[test]
+    fn every_finite_value_is_in_one_bar() {
+        let question = question(&[0.0, 0.5, 1.0, f64::NAN, f64::INFINITY], None);
+        let analysis = question.answer();
+        assert_eq!(analysis.extremes, Some([0.0, 1.0]));
+        assert_eq!((analysis.bars[0], analysis.bars[BARS / 2], analysis.bars[BARS - 1]), (1, 1, 1));
+        assert_eq!(analysis.bars.iter().sum::<u64>(), 3);
+        assert!(question.is_answered_by(&analysis));
+    }
+
+    #[test]
+    fn values_outside_a_fixed_range_are_in_none() {
+        let analysis = question(&[-1.0, 2.0, 2.5, 9.0], Some([2.0, 3.0])).answer();
+        assert_eq!(analysis.extremes, Some([-1.0, 9.0]));
+        assert_eq!(analysis.bars.iter().sum::<u64>(), 2);
+    }
+
+    #[test]
+    fn constant_and_missing_quantities_do_no_harm() {
+        assert_eq!(question(&[4.0; 7], None).answer().bars[BARS / 2], 7);
+        assert_eq!(question(&[f64::NAN], None).answer().extremes, None);
+        let missing = Question { quantity: Some("heat".into()), ..question(&[1.0], None) };
+        assert_eq!(missing.answer().extremes, None);
+    }
+}

@@ -1,0 +1,87 @@
+//! Signs of the transport buttons, drawn as shapes so that they are sharp and of one weight.
+
+use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::theme;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    Play,
+    Pause,
+    StepBack,
+    StepForward,
+    First,
+    Last,
+    Loop,
+    Cross,
+}
+
+/// A square button with a sign on it; `on` for a switch that is on.
+pub fn button(ui: &mut Ui, icon: Icon, name: &str, on: bool, enabled: bool) -> Response {
+    let size = vec2(theme::ROW_HEIGHT + 4.0, theme::ROW_HEIGHT);
+    let sense = if enabled { Sense::click() } else { Sense::hover() };
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    let response = response.accessible_name(name);
+    let fill = match () {
+        () if response.is_pointer_button_down_on() => theme::RAISED_PRESS,
+        () if response.hovered() && enabled => theme::RAISED_HOVER,
+        () if on => theme::ACCENT_DEEP,
+        () => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 4, fill);
+    let colour = match (enabled, on) {
+        (false, _) => theme::LINE,
+        (true, true) => theme::ACCENT,
+        (true, false) => theme::TEXT,
+    };
+    draw(ui.painter(), icon, rect.center(), colour);
+    response.on_hover_text(name)
+}
+
+fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
+    let at = |x: f32, y: f32| centre + vec2(x, y);
+    let bar = |x: f32| {
+        painter.rect_filled(Rect::from_center_size(at(x, 0.0), vec2(2.6, 11.0)), 0, colour);
+    };
+    let triangle = |x: f32, to: f32| {
+        let points = vec![at(x, -5.5), at(x + to, 0.0), at(x, 5.5)];
+        painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
+    };
+    match icon {
+        Icon::Play => triangle(-3.5, 9.0),
+        Icon::Pause => {
+            bar(-3.0);
+            bar(3.0);
+        }
+        Icon::StepForward => {
+            triangle(-4.5, 7.0);
+            bar(4.0);
+        }
+        Icon::StepBack => {
+            triangle(4.5, -7.0);
+            bar(-4.0);
+        }
+        Icon::Last => {
+            triangle(-6.5, 5.5);
+            triangle(-1.0, 5.5);
+            bar(6.0);
+        }
+        Icon::First => {
+            triangle(6.5, -5.5);
+            triangle(1.0, -5.5);
+            bar(-6.0);
+        }
+        Icon::Loop => {
+            let frame = Rect::from_center_size(centre, vec2(13.0, 8.0));
+            painter.rect_stroke(frame, 3, Stroke::new(1.4, colour), StrokeKind::Middle);
+            let tip = pos2(centre.x + 2.4, frame.top());
+            let points = vec![tip + vec2(-3.6, -3.2), tip, tip + vec2(-3.6, 3.2)];
+            painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
+        }
+        Icon::Cross => {
+            let stroke = Stroke::new(1.4, colour);
+            painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
+            painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Where everything is in the window.
+
+use egui::{Align2, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, Stroke, Ui, vec2};
+
+use super::desk::Desk;
+use super::panels::{
+    camera, help, image, legend, messages, particles, performance, quantity, timeline, toolbar,
+};
+use super::picture_view::PictureView;
+use super::shortcuts::Action;
+use super::{theme, widgets};
+
+/// Shows the window's contents. Returns the room for the picture, in physical pixels.
+pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2] {
+    let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 0));
+    Panel::top("toolbar").exact_size(40.0).frame(bar).show(ui, |ui| {
+        toolbar::show(ui, &desk.session, desk.picture.flying, desk.side_panel, actions);
+    });
+    if desk.session.playback.count() > 1 {
+        let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 6));
+        Panel::bottom("timeline").exact_size(timeline::HEIGHT).frame(bar).show(ui, |ui| {
+            timeline::show(ui, &mut desk.session, actions);
+        });
+    }
+    if desk.side_panel {
+        let side = Frame::new().fill(theme::PANEL);
+        Panel::right("side").exact_size(theme::SIDE_WIDTH).resizable(false).frame(side).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                let margin = Margin { left: theme::MARGIN, right: theme::MARGIN, top: 4, bottom: 4 };
+                Frame::new().inner_margin(margin).show(ui, |ui| sections(ui, desk, actions));
+            });
+        });
+    }
+    let outer = ui.available_rect_before_wrap();
+    let room = PictureView::room(outer, ui.pixels_per_point());
+    let rect = desk.picture.show(ui, &mut desk.session);
+    over_picture(ui, desk, rect, outer);
+    help::show(ui, &mut desk.help);
+    drop_target(ui);
+    room
+}
+
+fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
+    let Desk { session, editor, legend, .. } = desk;
+    widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
+    widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
+    widgets::section(ui, "Picture", false, |ui| image::show(ui, session, legend, actions));
+    widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
+    widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
+    widgets::section(ui, "Performance", true, |ui| performance::show(ui, session));
+}
+
+fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
+    if desk.legend && desk.session.picture.is_some() {
+        legend::show(ui, &desk.session, rect);
+    }
+    status(ui, desk, outer);
+    exports(ui, desk, outer);
+    messages::show(ui, &mut desk.session, outer);
+}
+
+/// What the picture is and what is being done about it, at the lower edge.
+fn status(ui: &Ui, desk: &Desk, outer: Rect) {
+    let picture = desk.session.picture.as_ref();
+    let mut parts = Vec::new();
+    if desk.picture.flying {
+        parts.push(format!(
+            "Flying: W A S D Q E, drag to look, wheel for speed ({:.2})",
+            desk.picture.speed()
+        ));
+    }
+    match (desk.busy(), picture) {
+        (Some(text), _) => parts.push(text.to_owned()),
+        (None, Some(picture)) if picture.divisor > 1 => {
+            let share = desk.render.share().map_or(String::new(), |share| format!(" {:.0} %", 100.0 * share));
+            parts.push(format!("1/{} resolution, refining{share}", picture.divisor));
+        }
+        (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
+        _ => {}
+    }
+    if let (None, Some(trouble)) = (picture, desk.session.trouble()) {
+        let text = format!("Frame {} cannot be read: {trouble}", desk.session.playback.index() + 1);
+        let font = egui::FontId::proportional(15.0);
+        ui.painter().text(outer.center(), Align2::CENTER_CENTER, text, font, theme::ERROR);
+    }
+    if parts.is_empty() {
+        return;
+    }
+    let text = parts.join("   ·   ");
+    let galley = ui.painter().layout_no_wrap(text, theme::small_font(), theme::TEXT);
+    let size = galley.size() + vec2(18.0, 8.0);
+    let place = egui::pos2(outer.center().x, outer.bottom() - 22.0);
+    let chip = Rect::from_center_size(place, size);
+    ui.painter().rect_filled(chip, 10, Color32::from_black_alpha(170));
+    ui.painter().galley(chip.min + vec2(9.0, 4.0), galley, theme::TEXT);
+}
+
+/// Pictures on their way to files.
+fn exports(ui: &mut Ui, desk: &Desk, outer: Rect) {
+    let width = 300.0_f32.min(outer.width() - 24.0);
+    for (index, export) in desk.exports.iter().enumerate() {
+        let top = outer.top() + 12.0 + 58.0 * index as f32;
+        let corner = egui::pos2(outer.right() - width - 12.0, top);
+        let place = Rect::from_min_size(corner, vec2(width, 50.0));
+        ui.painter().rect(place, 6, theme::PANEL, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Inside);
+        ui.scope_builder(egui::UiBuilder::new().max_rect(place.shrink(8.0)), |ui| {
+            let name = export.path.file_name().unwrap_or_default().to_string_lossy();
+            ui.add(egui::Label::new(RichText::new(format!("Saving {name}")).small()).truncate());
+            ui.horizontal(|ui| {
+                let bar = egui::ProgressBar::new(export.share()).desired_height(8.0);
+                ui.add(bar.desired_width(width - 96.0).fill(theme::ACCENT));
+                if ui.small_button("Cancel").clicked() {
+                    export.cancel();
+                }
+            });
+        });
+    }
+}
+
+/// Says what happens to files that hover over the window.
+fn drop_target(ui: &Ui) {
+    if ui.ctx().input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop"));
+    let painter = ui.ctx().layer_painter(layer);
+    let rect = ui.ctx().content_rect();
+    painter.rect_filled(rect, 0, Color32::from_black_alpha(150));
+    let frame = rect.shrink(24.0);
+    painter.rect_stroke(frame, 12, Stroke::new(2.0, theme::ACCENT), egui::StrokeKind::Inside);
+    let text = "Drop particle files or a folder to open them, or a view.json to load it";
+    painter.text(rect.center(), Align2::CENTER_CENTER, text, egui::FontId::proportional(18.0), theme::TEXT);
+}

@@ -1,0 +1,57 @@
+//! The window: open a run, look around in it, colour it, play it, save pictures of it.
+//!
+//! - [`session`] is the state, without window or egui: run, playhead, view, camera, messages.
+//! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`export`] does
+//!   so for saved ones.
+//! - [`desk`] ties the two together with dialogs and [`panels`]; [`window`] is winit and egui.
+
+mod analysis;
+mod desk;
+mod dialogs;
+mod export;
+mod icons;
+mod layout;
+mod messages;
+mod orbit_camera;
+mod pace;
+mod panels;
+mod picture_view;
+mod playback;
+mod prepare;
+mod render_thread;
+mod run;
+mod session;
+mod shortcuts;
+mod theme;
+mod tone;
+mod widgets;
+mod window;
+
+use std::sync::Arc;
+
+use renderer::{GpuOptions, View};
+
+use crate::frames::Sequence;
+
+/// What the viewer is opened with.
+pub struct Options {
+    pub sequence: Sequence,
+    /// Settings to start from.
+    pub view: View,
+    /// Whether the size of the image was asked for; otherwise it is that of the window.
+    pub fixed_size: bool,
+    pub gpu: GpuOptions,
+    /// Whether to write one line on standard error for each thing that happens.
+    pub log_events: bool,
+}
+
+/// Tells the window from another thread that there is something new.
+type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// Opens the window and returns when it is closed.
+///
+/// # Errors
+/// Without a display or a graphics adapter; the message says what to do.
+pub fn run(options: Options) -> anyhow::Result<()> {
+    window::run(options)
+}

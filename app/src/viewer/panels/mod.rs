@@ -1,0 +1,15 @@
+//! One panel a file. Panels edit the session's view; what needs the window they ask for by an action.
+
+pub mod camera;
+pub mod help;
+pub mod image;
+pub mod legend;
+pub mod messages;
+pub mod particles;
+pub mod performance;
+pub mod presets;
+pub mod quantity;
+pub mod timeline;
+pub mod toolbar;
+pub mod transfer_canvas;
+pub mod transfer_editor;

@@ -1,0 +1,101 @@
+//! Transfer functions to start from.
+
+use renderer::{ControlPoint, TransferView};
+
+/// A named transfer function.
+pub struct Preset {
+    pub name: &'static str,
+    pub hint: &'static str,
+    /// u, sRGB colour, opacity.
+    points: &'static [(f32, u32, f32)],
+}
+
+/// Colours follow perceptually even maps where the order of values is what matters.
+pub const PRESETS: [Preset; 6] = [
+    Preset {
+        name: "Two-ended",
+        hint: "Both extremes stand out, the middle is thin",
+        points: &[
+            (0.0, 0x3b4cc0, 0.35),
+            (0.25, 0x7b9ff9, 0.06),
+            (0.5, 0xdddddd, 0.0),
+            (0.75, 0xf49a7b, 0.06),
+            (1.0, 0xb40426, 0.35),
+        ],
+    },
+    Preset {
+        name: "Ramp",
+        hint: "Opacity grows with the value",
+        points: &[(0.0, 0x2a5ca8, 0.0), (0.5, 0xd8d8c8, 0.12), (1.0, 0xc8452c, 0.4)],
+    },
+    Preset {
+        name: "Narrow peak",
+        hint: "One value as a shell: move the peak to where it is needed",
+        points: &[
+            (0.0, 0x40b0c0, 0.0),
+            (0.44, 0x40b0c0, 0.0),
+            (0.5, 0xf2d06b, 0.8),
+            (0.56, 0xe8743b, 0.0),
+            (1.0, 0xe8743b, 0.0),
+        ],
+    },
+    Preset {
+        name: "Viridis",
+        hint: "Dark to bright, readable without colour vision",
+        points: &[
+            (0.0, 0x440154, 0.02),
+            (0.25, 0x3b528b, 0.06),
+            (0.5, 0x21918c, 0.12),
+            (0.75, 0x5ec962, 0.2),
+            (1.0, 0xfde725, 0.35),
+        ],
+    },
+    Preset {
+        name: "Inferno",
+        hint: "Black to yellow: speed, temperature, energy",
+        points: &[
+            (0.0, 0x000004, 0.0),
+            (0.25, 0x57106e, 0.05),
+            (0.5, 0xbc3754, 0.12),
+            (0.75, 0xf98e09, 0.25),
+            (1.0, 0xfcffa4, 0.5),
+        ],
+    },
+    Preset {
+        name: "Solid above half",
+        hint: "A step: nothing below the middle, opaque above it",
+        points: &[(0.0, 0x6fa8dc, 0.0), (0.5, 0x6fa8dc, 0.0), (0.5, 0x6fa8dc, 0.9), (1.0, 0xf3f6f9, 0.9)],
+    },
+];
+
+impl Preset {
+    pub fn points(&self) -> Vec<ControlPoint> {
+        let point = |&(u, colour, opacity): &(f32, u32, f32)| {
+            let channel = |shift: u32| from_srgb((colour >> shift) as u8);
+            ControlPoint { u, rgb: [channel(16), channel(8), channel(0)], opacity }
+        };
+        self.points.iter().map(point).collect()
+    }
+}
+
+/// What a view without a transfer function shows.
+pub fn default_points() -> Vec<ControlPoint> {
+    TransferView::default().points
+}
+
+fn from_srgb(byte: u8) -> f32 {
+    let value = f32::from(byte) / 255.0;
+    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_is_a_transfer_function() {
+        for preset in &PRESETS {
+            assert!(renderer::TransferFunction::new(&preset.points()).is_ok(), "{}", preset.name);
+        }
+    }
+}

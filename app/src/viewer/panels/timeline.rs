@@ -1,0 +1,174 @@
+//! The timeline: where the playhead is, what is in memory, and the transport buttons.
+
+use egui::{Align, Color32, Layout, Pos2, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+
+use crate::frames::Cached;
+use crate::viewer::icons::{self, Icon};
+use crate::viewer::playback::Playback;
+use crate::viewer::session::Session;
+use crate::viewer::shortcuts::Action;
+use crate::viewer::{theme, widgets};
+
+pub const HEIGHT: f32 = 64.0;
+const TRACK_HEIGHT: f32 = 8.0;
+
+pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
+    track(ui, session);
+    ui.horizontal(|ui| {
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            transport(ui, session, actions);
+        });
+        ui.add_space(6.0);
+        speed(ui, session);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 14.0;
+            position(ui, session);
+        });
+    });
+}
+
+fn transport(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
+    let playing = session.playback.playing();
+    let (sign, name) = if playing { (Icon::Pause, "Pause  (Space)") } else { (Icon::Play, "Play  (Space)") };
+    for (icon, name, action) in [
+        (Icon::First, "First frame  (Ctrl+Left)", Action::First),
+        (Icon::StepBack, "Previous frame  (Left)", Action::StepBack),
+        (sign, name, Action::PlayPause),
+        (Icon::StepForward, "Next frame  (Right)", Action::StepForward),
+        (Icon::Last, "Last frame  (Ctrl+Right)", Action::Last),
+    ] {
+        let on = action == Action::PlayPause && playing;
+        if icons::button(ui, icon, name, on, true).clicked() {
+            actions.push(action);
+        }
+    }
+    ui.add_space(6.0);
+    let looping = &mut session.playback.looping;
+    if icons::button(ui, Icon::Loop, "Play in a loop", *looping, true).clicked() {
+        *looping = !*looping;
+    }
+}
+
+fn speed(ui: &mut Ui, session: &mut Session) {
+    let speed = &mut session.playback.speed;
+    let label = |speed: f64| format!("{speed} fps");
+    let shown = egui::ComboBox::from_id_salt("speed").width(76.0).selected_text(label(*speed));
+    let response = shown.show_ui(ui, |ui| {
+        for choice in Playback::SPEEDS {
+            ui.selectable_value(speed, choice, label(choice));
+        }
+    });
+    response.response.on_hover_text("Frames a second while playing; never faster than pictures are drawn");
+}
+
+/// Which frame this is, in words, from right to left.
+fn position(ui: &mut Ui, session: &Session) {
+    let index = session.playback.index();
+    let text = format!("{} / {}", index + 1, session.playback.count());
+    ui.label(RichText::new(text).font(theme::number_font()).color(theme::TEXT));
+    let here = session.frame().filter(|(frame, _)| *frame == index);
+    if let Some(time) = here.and_then(|(_, frame)| frame.metadata.time) {
+        let text = format!("t = {}", widgets::short(time));
+        ui.label(RichText::new(text).font(theme::number_font()).color(theme::MUTED));
+    }
+    if session.trouble().is_some() {
+        ui.label(RichText::new("cannot be read").color(theme::ERROR));
+    } else if session.waiting() {
+        ui.label(RichText::new("reading…").color(theme::WARNING));
+    }
+    if let Some(run) = session.run() {
+        let name = RichText::new(run.name(index)).color(theme::MUTED);
+        ui.add(egui::Label::new(name).truncate());
+    }
+}
+
+/// Places of the frames along the track.
+struct Track {
+    rect: Rect,
+    count: usize,
+}
+
+impl Track {
+    /// The part of the track that stands for frame `index`.
+    fn cell(&self, index: usize) -> Rect {
+        let width = self.rect.width() / self.count as f32;
+        let left = self.rect.left() + index as f32 * width;
+        Rect::from_min_max(pos2(left, self.rect.top()), pos2(left + width, self.rect.bottom()))
+    }
+
+    fn at(&self, cursor: Pos2) -> usize {
+        let share = ((cursor.x - self.rect.left()) / self.rect.width()).clamp(0.0, 1.0);
+        ((share * self.count as f32) as usize).min(self.count - 1)
+    }
+}
+
+fn track(ui: &mut Ui, session: &mut Session) {
+    let size = vec2(ui.available_width(), 22.0);
+    let (outer, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let response = response.accessible_name("Timeline");
+    let count = session.playback.count();
+    if count == 0 {
+        return;
+    }
+    let rect = Rect::from_center_size(outer.center(), vec2(outer.width() - 12.0, TRACK_HEIGHT));
+    let track = Track { rect, count };
+    if let Some(cursor) = response.interact_pointer_pos()
+        && (response.dragged() || response.clicked())
+    {
+        let index = track.at(cursor);
+        if index != session.playback.index() {
+            session.playback.pause();
+            session.jump(index);
+            session.touch(std::time::Instant::now());
+        }
+    }
+    paint(ui, session, &track);
+    if let Some(cursor) = response.hover_pos() {
+        let index = track.at(cursor);
+        let name = session.run().map_or("", |run| run.name(index)).to_owned();
+        response.on_hover_text_at_pointer(format!("{}  {name}", index + 1));
+    }
+}
+
+fn paint(ui: &Ui, session: &Session, track: &Track) {
+    let painter = ui.painter();
+    painter.rect_filled(track.rect, 3, theme::WELL);
+    let cached = session.run().map(|run| run.stream.cached()).unwrap_or_default();
+    // Neighbours of one kind are one shape: a sequence may have many thousand frames.
+    let mut first = 0;
+    while first < cached.len() {
+        let kind = cached[first];
+        let same = cached[first..].iter().take_while(|other| **other == kind).count();
+        let last = first + same - 1;
+        let mut rect = track.cell(first).union(track.cell(last));
+        let colour = match kind {
+            Cached::No => Color32::TRANSPARENT,
+            Cached::Loading => Color32::from_rgb(0x27, 0x38, 0x3f),
+            Cached::Yes => Color32::from_rgb(0x33, 0x5f, 0x69),
+            Cached::Failed => theme::ERROR,
+        };
+        if kind == Cached::Failed {
+            // Visible, however many frames there are.
+            rect = rect.expand2(vec2((1.5 - 0.5 * rect.width()).max(0.0), 0.0));
+        }
+        painter.rect_filled(rect, 2, colour);
+        first += same;
+    }
+    ticks(ui, track);
+    let cell = track.cell(session.playback.index());
+    let head = Rect::from_center_size(cell.center(), vec2(cell.width().clamp(4.0, 10.0), 18.0));
+    painter.rect_filled(head, 3, Color32::WHITE);
+}
+
+/// Marks between frames, where they are far enough apart to be told from one another.
+fn ticks(ui: &Ui, track: &Track) {
+    if track.rect.width() / (track.count as f32) < 8.0 {
+        return;
+    }
+    for index in 1..track.count {
+        let x = track.cell(index).left();
+        let stroke = Stroke::new(1.0, theme::PANEL);
+        ui.painter().line_segment([pos2(x, track.rect.top()), pos2(x, track.rect.bottom())], stroke);
+    }
+}

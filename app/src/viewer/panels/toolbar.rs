@@ -1,0 +1,79 @@
+//! The bar on top: files, camera, window.
+
+use egui::{Align, Button, Layout, Response, Ui};
+
+use crate::viewer::orbit_camera::Side;
+use crate::viewer::session::Session;
+use crate::viewer::shortcuts::{Action, hint};
+use crate::viewer::theme;
+
+pub fn show(ui: &mut Ui, session: &Session, flying: bool, panels: bool, actions: &mut Vec<Action>) {
+    ui.horizontal_centered(|ui| {
+        files(ui, actions);
+        gap(ui);
+        let ready = session.camera.is_some();
+        ui.add_enabled_ui(ready, |ui| camera(ui, flying, actions));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            call(ui, ui_button("Help", false), Action::Help, actions);
+            call(ui, ui_button("Panels", panels), Action::Panels, actions);
+        });
+    });
+}
+
+fn files(ui: &mut Ui, actions: &mut Vec<Action>) {
+    ui.menu_button("Open", |ui| {
+        item(ui, "Files…", Action::OpenFiles, actions);
+        item(ui, "Folder…", Action::OpenFolder, actions);
+        item(ui, "Demo run", Action::OpenDemo, actions);
+    });
+    ui.menu_button("View", |ui| {
+        item(ui, "Load view…", Action::LoadView, actions);
+        item(ui, "Save view…", Action::SaveView, actions);
+    });
+    ui.menu_button("Picture", |ui| {
+        item(ui, "Save picture…", Action::SavePicture, actions);
+        item(ui, "Save picture and view here", Action::QuickSave, actions);
+    });
+}
+
+fn camera(ui: &mut Ui, flying: bool, actions: &mut Vec<Action>) {
+    call(ui, ui_button("Reset", false), Action::Reset, actions);
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().button_padding.x = 6.0;
+        for side in Side::ALL {
+            call(ui, ui_button(side.label(), false), Action::Look(side), actions);
+        }
+    });
+    call(ui, ui_button("Fly", flying), Action::Fly, actions);
+}
+
+fn gap(ui: &mut Ui) {
+    ui.add_space(4.0);
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(1.0, 18.0), egui::Sense::hover());
+    ui.painter().rect_filled(rect, 0, theme::LINE);
+    ui.add_space(4.0);
+}
+
+/// A button; a switch that is on stands out.
+fn ui_button(label: &'static str, on: bool) -> Button<'static> {
+    let button = Button::new(label);
+    if on { button.fill(theme::ACCENT_DEEP) } else { button }
+}
+
+fn call(ui: &mut Ui, button: Button<'_>, action: Action, actions: &mut Vec<Action>) -> Response {
+    let response = ui.add(button).on_hover_text(hint(ui.ctx(), action));
+    if response.clicked() {
+        actions.push(action);
+    }
+    response
+}
+
+/// A line of a menu, with its keys at the right edge.
+fn item(ui: &mut Ui, label: &str, action: Action, actions: &mut Vec<Action>) {
+    let keys = crate::viewer::shortcuts::keys(ui.ctx(), action);
+    if ui.add(Button::new(label).shortcut_text(keys)).clicked() {
+        actions.push(action);
+        ui.close();
+    }
+}

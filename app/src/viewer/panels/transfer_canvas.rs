@@ -1,0 +1,240 @@
+//! The canvas of the transfer-function editor: where a control point lies, and how it is moved.
+
+use egui::epaint::Mesh;
+use egui::{Color32, Painter, Pos2, Rect, Rgba, Shape, Stroke, StrokeKind, pos2};
+use renderer::{ControlPoint, TransferFunction};
+
+use crate::viewer::theme;
+
+/// Smallest opacity that a logarithmic axis shows above zero.
+const LOG_FLOOR: f32 = 1e-4;
+/// A node is caught within this distance, in points.
+const REACH: f32 = 9.0;
+/// Points between two columns of a gradient.
+const COLUMN: f32 = 2.0;
+
+/// From u and opacity to the screen and back.
+#[derive(Clone, Copy, Debug)]
+pub struct Axes {
+    pub rect: Rect,
+    /// Whether the opacity axis is logarithmic.
+    pub log: bool,
+}
+
+impl Axes {
+    pub fn x(&self, u: f32) -> f32 {
+        self.rect.left() + u * self.rect.width()
+    }
+
+    pub fn y(&self, opacity: f32) -> f32 {
+        let height = match self.log {
+            true => (1.0 - opacity.max(LOG_FLOOR).log10() / LOG_FLOOR.log10()).clamp(0.0, 1.0),
+            false => opacity,
+        };
+        self.rect.bottom() - height * self.rect.height()
+    }
+
+    pub fn place(&self, point: &ControlPoint) -> Pos2 {
+        pos2(self.x(point.u), self.y(point.opacity))
+    }
+
+    /// u and opacity at a place, clamped to the canvas.
+    pub fn at(&self, place: Pos2) -> (f32, f32) {
+        let u = ((place.x - self.rect.left()) / self.rect.width()).clamp(0.0, 1.0);
+        let height = ((self.rect.bottom() - place.y) / self.rect.height()).clamp(0.0, 1.0);
+        let opacity = match self.log {
+            true if height < 0.005 => 0.0,
+            true => LOG_FLOOR.powf(1.0 - height),
+            false => height,
+        };
+        (u, opacity)
+    }
+
+    /// The node under the cursor, the nearest where there are several.
+    pub fn hit(&self, points: &[ControlPoint], cursor: Pos2) -> Option<usize> {
+        let distance = |index: &usize| self.place(&points[*index]).distance(cursor);
+        let near = (0..points.len()).filter(|index| distance(index) <= REACH);
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}
+
+/// Moves a node, no farther than its neighbours: at a neighbour's u the two are a step.
+pub fn move_node(points: &mut [ControlPoint], index: usize, u: f32, opacity: f32) {
+    let low = if index == 0 { 0.0 } else { points[index - 1].u };
+    let high = points.get(index + 1).map_or(1.0, |next| next.u);
+    points[index].u = u.clamp(low, high);
+    points[index].opacity = opacity.clamp(0.0, 1.0);
+}
+
+/// Adds a node of the colour that is there. Returns its place in the list.
+pub fn add_node(points: &mut Vec<ControlPoint>, u: f32, opacity: f32) -> usize {
+    let rgb = TransferFunction::new(points).map_or([1.0; 3], |transfer| {
+        let [r, g, b, _] = transfer.sample(u);
+        [r, g, b]
+    });
+    let index = points.partition_point(|point| point.u <= u);
+    points.insert(index, ControlPoint { u, rgb, opacity });
+    index
+}
+
+/// A canvas with the histogram behind the opacity, and the colours in a strip below.
+pub fn paint(painter: &Painter, axes: &Axes, strip: Rect, points: &[ControlPoint], bars: &[u64]) {
+    let frame = axes.rect.expand2(egui::vec2(7.0, 7.0));
+    painter.rect_filled(frame, 4, theme::WELL);
+    histogram(painter, axes, bars);
+    grid(painter, axes);
+    let Ok(transfer) = TransferFunction::new(points) else { return };
+    gradient(painter, axes.rect, |u| {
+        let [r, g, b, opacity] = transfer.sample(u);
+        (axes.y(opacity), to_screen([r, g, b]).gamma_multiply(0.45))
+    });
+    gradient(painter, strip, |u| {
+        let [r, g, b, _] = transfer.sample(u);
+        (strip.top(), to_screen([r, g, b]))
+    });
+    outline(painter, axes, points);
+    painter.rect_stroke(strip, 2, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
+}
+
+/// The nodes, on top of everything.
+pub fn paint_nodes(
+    painter: &Painter,
+    axes: &Axes,
+    points: &[ControlPoint],
+    selected: Option<usize>,
+    under: Option<usize>,
+) {
+    for (index, point) in points.iter().enumerate() {
+        let chosen = selected == Some(index);
+        let radius = if chosen || under == Some(index) { 6.0 } else { 5.0 };
+        let ring = if chosen { Color32::WHITE } else { Color32::from_rgb(0xb4, 0xbc, 0xc7) };
+        let width = if chosen { 2.0 } else { 1.3 };
+        painter.circle(axes.place(point), radius, to_screen(point.rgb), Stroke::new(width, ring));
+    }
+}
+
+/// Particles in each bar, on a logarithmic axis: rare values matter as much as common ones.
+fn histogram(painter: &Painter, axes: &Axes, bars: &[u64]) {
+    let most = bars.iter().copied().max().unwrap_or(0);
+    if most == 0 {
+        return;
+    }
+    let top = (1.0 + most as f32).ln();
+    let width = axes.rect.width() / bars.len() as f32;
+    let mut mesh = Mesh::default();
+    for (index, bar) in bars.iter().enumerate() {
+        let height = (1.0 + *bar as f32).ln() / top * axes.rect.height();
+        let left = axes.rect.left() + index as f32 * width;
+        let corner = pos2(left, axes.rect.bottom() - height);
+        let bar = Rect::from_min_max(corner, pos2(left + width, axes.rect.bottom()));
+        mesh.add_colored_rect(bar, Color32::from_rgb(0x2d, 0x33, 0x3c));
+    }
+    painter.add(Shape::mesh(mesh));
+}
+
+fn grid(painter: &Painter, axes: &Axes) {
+    let steps: &[f32] = if axes.log { &[1.0, 0.1, 0.01, 0.001] } else { &[1.0, 0.75, 0.5, 0.25] };
+    let stroke = Stroke::new(1.0, Color32::from_white_alpha(9));
+    for &opacity in steps {
+        painter.hline(axes.rect.x_range(), axes.y(opacity), stroke);
+        let place = pos2(axes.rect.right() - 2.0, axes.y(opacity) + 1.0);
+        let font = egui::FontId::monospace(9.5);
+        let text = format!("{opacity}");
+        painter.text(place, egui::Align2::RIGHT_TOP, text, font, theme::FAINT);
+    }
+    painter.hline(axes.rect.x_range(), axes.rect.bottom(), Stroke::new(1.0, theme::LINE));
+}
+
+/// Columns from the bottom of `rect` up to a height, each in its colour.
+fn gradient(painter: &Painter, rect: Rect, at: impl Fn(f32) -> (f32, Color32)) {
+    let columns = (rect.width() / COLUMN).ceil().max(1.0) as u32;
+    let mut mesh = Mesh::default();
+    for column in 0..=columns {
+        let u = column as f32 / columns as f32;
+        let x = rect.left() + u * rect.width();
+        let (top, colour) = at(u);
+        mesh.colored_vertex(pos2(x, top), colour);
+        mesh.colored_vertex(pos2(x, rect.bottom()), colour);
+        if column > 0 {
+            let next = 2 * column;
+            mesh.add_triangle(next - 2, next - 1, next);
+            mesh.add_triangle(next - 1, next, next + 1);
+        }
+    }
+    painter.add(Shape::mesh(mesh));
+}
+
+/// The opacity as a line: through the nodes, level outside.
+fn outline(painter: &Painter, axes: &Axes, points: &[ControlPoint]) {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
+    let mut line = vec![pos2(axes.rect.left(), axes.y(first.opacity)), axes.place(first)];
+    for pair in points.windows(2) {
+        // On a logarithmic axis, a straight ramp is a curve.
+        let parts = if axes.log { 32 } else { 1 };
+        line.extend((1..=parts).map(|part| {
+            let s = part as f32 / parts as f32;
+            let u = pair[0].u + s * (pair[1].u - pair[0].u);
+            let opacity = pair[0].opacity + s * (pair[1].opacity - pair[0].opacity);
+            pos2(axes.x(u), axes.y(opacity))
+        }));
+    }
+    line.push(pos2(axes.rect.right(), axes.y(last.opacity)));
+    painter.line(line, Stroke::new(1.6, Color32::from_rgb(0xd5, 0xda, 0xe1)));
+}
+
+/// A linear colour as the screen's.
+pub fn to_screen([r, g, b]: [f32; 3]) -> Color32 {
+    Rgba::from_rgb(r, g, b).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axes(log: bool) -> Axes {
+        Axes { rect: Rect::from_min_max(pos2(10.0, 20.0), pos2(210.0, 120.0)), log }
+    }
+
+    fn point(u: f32, opacity: f32) -> ControlPoint {
+        ControlPoint { u, rgb: [0.5; 3], opacity }
+    }
+
+    #[test]
+    fn places_go_there_and_back() {
+        for log in [false, true] {
+            for (u, opacity) in [(0.0, 0.0), (0.3, 0.02), (1.0, 1.0)] {
+                let (back_u, back) = axes(log).at(axes(log).place(&point(u, opacity)));
+                assert!((back_u - u).abs() < 1e-5 && (back - opacity).abs() < 1e-4, "{u} {opacity} {log}");
+            }
+        }
+        assert_eq!(axes(false).at(pos2(-500.0, 999.0)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn nodes_meet_their_neighbours_but_never_pass_them() {
+        let mut points = vec![point(0.0, 0.0), point(0.5, 0.5), point(0.7, 1.0)];
+        move_node(&mut points, 1, 0.9, 2.0);
+        assert_eq!((points[1].u, points[1].opacity), (0.7, 1.0));
+        move_node(&mut points, 0, -1.0, -1.0);
+        assert_eq!((points[0].u, points[0].opacity), (0.0, 0.0));
+        assert!(TransferFunction::new(&points).is_ok());
+    }
+
+    #[test]
+    fn a_new_node_has_the_colour_of_its_place() {
+        let mut points = vec![
+            ControlPoint { u: 0.0, rgb: [0.0; 3], opacity: 0.0 },
+            ControlPoint { u: 1.0, rgb: [1.0; 3], opacity: 1.0 },
+        ];
+        assert_eq!(add_node(&mut points, 0.25, 0.9), 1);
+        assert_eq!(points[1], ControlPoint { u: 0.25, rgb: [0.25; 3], opacity: 0.9 });
+    }
+
+    #[test]
+    fn the_nearest_node_is_caught() {
+        let points = [point(0.5, 0.5), point(0.52, 0.5), point(0.9, 0.1)];
+        let axes = axes(false);
+        assert_eq!(axes.hit(&points, axes.place(&points[1])), Some(1));
+        assert_eq!(axes.hit(&points, pos2(10.0, 20.0)), None);
+    }
+}

@@ -1,0 +1,180 @@
+//! The picture in the window, and what the mouse does over it.
+
+use egui::{
+    Align2, Color32, ColorImage, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Stroke,
+    TextureHandle, TextureOptions, Ui, pos2, vec2,
+};
+use glam::{DVec2, DVec3};
+
+use super::orbit_camera::{OrbitCamera, Screen};
+use super::render_thread::Shown;
+use super::session::Session;
+use super::theme;
+
+/// The picture as a texture, and the mode in which the mouse moves the camera.
+pub struct PictureView {
+    texture: Option<TextureHandle>,
+    pub flying: bool,
+    /// Speed of flying, in shares of the scene's radius a second.
+    speed: f64,
+}
+
+/// Factor of a zoom for each point of the wheel: one notch is about a tenth.
+const WHEEL: f64 = 0.002;
+const FLY_SPEEDS: [f64; 2] = [0.01, 10.0];
+
+impl PictureView {
+    pub fn new() -> PictureView {
+        PictureView { texture: None, flying: false, speed: 0.5 }
+    }
+
+    /// Takes a new picture: nearest pixels at full resolution, which is the screen's own; smooth below.
+    pub fn set(&mut self, context: &egui::Context, shown: &Shown) {
+        let pixels = shown.pixels.iter().map(|&[r, g, b, _]| Color32::from_rgb(r, g, b)).collect();
+        let image = ColorImage::new([shown.width as usize, shown.height as usize], pixels);
+        let options = if shown.divisor == 1 { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
+        match &mut self.texture {
+            Some(texture) => texture.set(image, options),
+            None => self.texture = Some(context.load_texture("picture", image, options)),
+        }
+    }
+
+    /// Forgets the picture, when another run is opened.
+    pub fn clear(&mut self) {
+        self.texture = None;
+    }
+
+    /// Room for a picture in `rect`, in physical pixels.
+    pub fn room(rect: Rect, pixels_per_point: f32) -> [u32; 2] {
+        [rect.width(), rect.height()].map(|side| (side * pixels_per_point).floor().max(0.0) as u32)
+    }
+
+    /// Shows the picture and moves the camera. Returns the picture's place.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) -> Rect {
+        let outer = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(outer, Sense::click_and_drag());
+        ui.painter().rect_filled(outer, 0, theme::GROUND);
+        let rect = place(outer, session.fitted(), ui.pixels_per_point());
+        if let Some(texture) = &self.texture {
+            let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+            ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
+        }
+        self.steer(ui, &response, rect, session);
+        if let Some(camera) = &session.camera {
+            triad(ui, rect, camera);
+        }
+        rect
+    }
+
+    /// Turns mouse and keys into movements of the camera.
+    fn steer(&mut self, ui: &Ui, response: &Response, rect: Rect, session: &mut Session) {
+        let Some(camera) = &mut session.camera else { return };
+        let before = *camera;
+        let screen = Screen { width: f64::from(rect.width()), height: f64::from(rect.height()) };
+        let cursor = |position: Pos2| {
+            DVec2::new(f64::from(position.x - rect.left()), f64::from(position.y - rect.top()))
+        };
+        let delta = response.drag_delta();
+        let delta = DVec2::new(f64::from(delta.x), f64::from(delta.y));
+        let modifiers = ui.input(|input| input.modifiers);
+        let left = response.dragged_by(PointerButton::Primary);
+        let other =
+            response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
+        match () {
+            () if other || (left && modifiers.shift) => camera.pan(delta, screen),
+            () if left && modifiers.command => camera.zoom((delta.y * 0.01).exp(), None, screen),
+            () if left && self.flying => camera.look(delta, screen),
+            () if left => camera.orbit(delta, screen),
+            () => {}
+        }
+        if left || other {
+            ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+        }
+        if response.double_clicked()
+            && let Some(position) = response.interact_pointer_pos()
+        {
+            camera.centre_on(cursor(position), screen);
+        }
+        if let Some(position) = response.hover_pos() {
+            let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            let factor = (-f64::from(wheel) * WHEEL).exp() / f64::from(pinch.max(1e-3));
+            if factor != 1.0 && self.flying {
+                self.speed = (self.speed / factor).clamp(FLY_SPEEDS[0], FLY_SPEEDS[1]);
+            } else if factor != 1.0 {
+                camera.zoom(factor, Some(cursor(position)), screen);
+            }
+        }
+        if self.flying && !ui.ctx().egui_wants_keyboard_input() {
+            self.fly(ui, camera);
+        }
+        if *camera != before {
+            session.touch(std::time::Instant::now());
+        }
+    }
+
+    fn fly(&self, ui: &Ui, camera: &mut OrbitCamera) {
+        use egui::Key;
+        let (steps, seconds) = ui.input(|input| {
+            let axis = |plus: Key, minus: Key| {
+                f64::from(u8::from(input.key_down(plus))) - f64::from(u8::from(input.key_down(minus)))
+            };
+            let steps = DVec3::new(axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S));
+            let faster = if input.modifiers.shift { 4.0 } else { 1.0 };
+            let steps = if input.modifiers.command { DVec3::ZERO } else { faster * steps };
+            (steps, f64::from(input.stable_dt.min(0.1)))
+        });
+        if steps != DVec3::ZERO {
+            camera.fly(steps * self.speed * seconds);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// Zooms to the centre by one step.
+    pub fn zoom(&self, session: &mut Session, closer: bool) {
+        let [width, height] = session.fitted().map(f64::from);
+        if let Some(camera) = &mut session.camera {
+            camera.zoom(if closer { 0.8 } else { 1.25 }, None, Screen { width, height });
+        }
+        session.touch(std::time::Instant::now());
+    }
+
+    /// Speed of flying, in scene radii a second.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+}
+
+/// The picture's place in the middle of `outer`, on whole physical pixels.
+fn place(outer: Rect, [width, height]: [u32; 2], pixels_per_point: f32) -> Rect {
+    let size = vec2(width as f32, height as f32) / pixels_per_point;
+    let corner = outer.min + 0.5 * (outer.size() - size).max(egui::Vec2::ZERO);
+    let corner = (corner.to_vec2() * pixels_per_point).round() / pixels_per_point;
+    Rect::from_min_size(corner.to_pos2(), size)
+}
+
+/// Small axes in the lower left corner: which way the scene is turned.
+fn triad(ui: &Ui, rect: Rect, camera: &OrbitCamera) {
+    if rect.height() < 160.0 {
+        return;
+    }
+    let centre = rect.left_bottom() + vec2(44.0, -44.0);
+    let [right, up, back] = camera.axes();
+    let colours = [(226, 106, 98), (122, 190, 110), (98, 152, 226)];
+    let mut axes: Vec<(DVec3, &str, Color32)> = [DVec3::X, DVec3::Y, DVec3::Z]
+        .into_iter()
+        .zip(["X", "Y", "Z"])
+        .zip(colours)
+        .map(|((axis, name), (r, g, b))| (axis, name, Color32::from_rgb(r, g, b)))
+        .collect();
+    axes.sort_by(|a, b| a.0.dot(back).total_cmp(&b.0.dot(back)));
+    for (axis, name, colour) in axes {
+        let direction = vec2(axis.dot(right) as f32, -axis.dot(up) as f32);
+        let tip = centre + 24.0 * direction;
+        let label = centre + 33.0 * direction;
+        ui.painter().line_segment([centre, tip], Stroke::new(2.0, colour));
+        if direction.length() < 0.3 {
+            continue;
+        }
+        ui.painter().text(label, Align2::CENTER_CENTER, name, theme::small_font(), colour);
+    }
+}

@@ -1,0 +1,51 @@
+//! An open run: its frames, and the stream that reads them ahead.
+
+use std::path::{Path, PathBuf};
+
+use crate::frames::{FrameStream, Sequence};
+
+use super::Wake;
+
+/// Bytes of frames that are kept beside the current one.
+const CACHE_BYTES: usize = 2 << 30;
+
+pub struct Run {
+    /// For the window's title: the file, or what the files have in common.
+    pub title: String,
+    /// One a frame.
+    names: Vec<String>,
+    pub stream: FrameStream,
+}
+
+impl Run {
+    pub fn new(sequence: &Sequence, wake: &Wake) -> Run {
+        let names: Vec<String> = sequence.sources().iter().map(|source| file_name(&source.name)).collect();
+        let title = match sequence.sources() {
+            _ if sequence.is_demo() => "demo".to_owned(),
+            [only] => file_name(&only.name),
+            several => several.first().map_or_else(String::new, |first| folder_name(&first.name)),
+        };
+        let wake = Wake::clone(wake);
+        let stream = FrameStream::new(sequence.frame_sources(), CACHE_BYTES, move || wake());
+        Run { title, names, stream }
+    }
+
+    /// What frame `index` is called.
+    pub fn name(&self, index: usize) -> &str {
+        self.names.get(index).map_or("", String::as_str)
+    }
+}
+
+/// Finds the frames that `paths` name: looks at folders and collections, so not for the window's thread.
+pub fn find(paths: &[PathBuf]) -> Result<Sequence, String> {
+    Sequence::open(paths).map_err(|error| error.to_string())
+}
+
+fn file_name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+fn folder_name(path: &str) -> String {
+    let folder = Path::new(path).parent().and_then(Path::file_name);
+    folder.map_or_else(|| file_name(path), |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,419 @@
+//! The state of the program: run, playhead, view, messages. Knows no window and no egui.
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use renderer::{Stats, View};
+
+use crate::frames::{Frame, FrameState};
+
+use super::analysis::{Analysis, Question};
+use super::messages::Messages;
+use super::orbit_camera::OrbitCamera;
+use super::playback::{Arrival, Playback};
+use super::prepare::Facts;
+use super::render_thread::{Job, Report, Shown};
+use super::run::Run;
+
+/// Where the range of the transfer function comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RangeSource {
+    /// The finite extremes of the frame in view.
+    Frame,
+    /// The extremes of all frames that were in view: colours do not jump from frame to frame.
+    Seen,
+    /// What the view says.
+    Fixed,
+}
+
+/// What is known of the picture on the screen.
+#[derive(Clone, Debug)]
+pub struct PictureFacts {
+    pub index: usize,
+    pub divisor: u32,
+    pub full: [u32; 2],
+    pub stats: Stats,
+    pub facts: Facts,
+}
+
+pub struct Session {
+    run: Option<Run>,
+    /// Everything that defines the picture, except for the camera and a range of all frames seen.
+    pub view: View,
+    /// `None` until the size of the scene is known.
+    pub camera: Option<OrbitCamera>,
+    pub playback: Playback,
+    pub messages: Messages,
+    pub range_source: RangeSource,
+    /// Whether the image has the size that it has in the window.
+    pub fits_window: bool,
+    /// The last frame that was read at the playhead.
+    frame: Option<(usize, Arc<Frame>)>,
+    pub picture: Option<PictureFacts>,
+    pub analysis: Option<Analysis>,
+    /// Adapter's name, and whether it is a program on the CPU.
+    pub adapter: Option<(String, bool)>,
+    /// Extremes of each quantity over the frames that were in view.
+    seen: HashMap<Option<String>, [f64; 2]>,
+    /// Frames that were reported as bad.
+    told: BTreeSet<usize>,
+    /// The frame whose picture failed, so that playing goes on.
+    without_picture: Option<usize>,
+    moving_until: Option<Instant>,
+    asked: Option<Job>,
+    /// Room for the picture in the window, in physical pixels.
+    room: [u32; 2],
+    /// Lines for whoever follows the program from outside.
+    events: Vec<String>,
+}
+
+/// How long after the last change the picture counts as moving.
+const SETTLE: Duration = Duration::from_millis(200);
+
+impl Session {
+    pub fn new(view: View) -> Session {
+        let mut session = Session {
+            run: None,
+            view: View::default(),
+            camera: None,
+            playback: Playback::new(0),
+            messages: Messages::default(),
+            range_source: RangeSource::Frame,
+            fits_window: true,
+            frame: None,
+            picture: None,
+            analysis: None,
+            adapter: None,
+            seen: HashMap::new(),
+            told: BTreeSet::new(),
+            without_picture: None,
+            moving_until: None,
+            asked: None,
+            room: [0, 0],
+            events: Vec::new(),
+        };
+        session.adopt(view);
+        session
+    }
+
+    /// Shows another run, from its first frame on. Keeps what is not about the run itself.
+    pub fn open(&mut self, run: Run) {
+        let first = self.run.is_none();
+        self.playback = self.playback.restarted(run.stream.len());
+        self.log(format!("opened {} frames={}", run.title, run.stream.len()));
+        self.run = Some(run);
+        (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
+        self.seen.clear();
+        self.told.clear();
+        if !first {
+            // The settings of another run's place and scale.
+            (self.camera, self.view.camera) = (None, None);
+            self.view.particles.support_radius = None;
+            self.view.transfer.reference_length = None;
+            self.view.quantity.range = None;
+            self.range_source = match self.range_source {
+                RangeSource::Fixed => RangeSource::Frame,
+                other => other,
+            };
+        }
+    }
+
+    /// Takes over the settings of a view that is valid.
+    pub fn adopt(&mut self, view: View) {
+        match (&mut self.camera, &view.camera) {
+            (Some(camera), Some(given)) => camera.adopt(given),
+            _ => self.camera = None,
+        }
+        let ranged = view.quantity.range.is_some();
+        self.range_source = if ranged { RangeSource::Fixed } else { RangeSource::Frame };
+        let size = [view.image.width, view.image.height];
+        self.fits_window = self.fits_window && (self.room == [0, 0] || size == self.room);
+        self.view = view;
+    }
+
+    pub fn run(&self) -> Option<&Run> {
+        self.run.as_ref()
+    }
+
+    /// The frame in view and its place in the sequence; behind the playhead while that one is read.
+    pub fn frame(&self) -> Option<&(usize, Arc<Frame>)> {
+        self.frame.as_ref()
+    }
+
+    /// Why the frame at the playhead is not in view, where it cannot be.
+    pub fn trouble(&self) -> Option<Arc<str>> {
+        match self.run.as_ref()?.stream.get(self.playback.index()) {
+            FrameState::Failed(why) => Some(why),
+            _ => None,
+        }
+    }
+
+    /// Whether the frame at the playhead is still being read.
+    pub fn waiting(&self) -> bool {
+        let index = self.playback.index();
+        let here = self.frame.as_ref().is_some_and(|(frame, _)| *frame == index);
+        self.run.is_some() && !here && self.trouble().is_none()
+    }
+
+    /// Says that something moves, so that the next pictures must be quick.
+    pub fn touch(&mut self, now: Instant) {
+        self.moving_until = Some(now + SETTLE);
+    }
+
+    pub fn jump(&mut self, index: usize) {
+        self.playback.jump(index);
+        self.request();
+    }
+
+    /// Goes to the next frame that is not known to be bad, or the one before.
+    pub fn step(&mut self, forwards: bool) -> bool {
+        let told = &self.told;
+        let moved = self.playback.step(forwards, |index| !told.contains(&index));
+        self.request();
+        moved
+    }
+
+    pub fn toggle_playing(&mut self) {
+        self.playback.toggle();
+        self.log(if self.playback.playing() { "playing" } else { "paused" });
+        self.request();
+    }
+
+    fn request(&self) {
+        if let Some(run) = &self.run {
+            run.stream.request(self.playback.index());
+        }
+    }
+
+    /// Looks for frames that have arrived, and moves the playhead while playing.
+    pub fn poll(&mut self, now: Instant) {
+        self.messages.expire(now);
+        // Bad frames may follow one another, and what comes after them may be in memory already.
+        for _ in 0..=self.playback.count() {
+            let index = self.playback.index();
+            self.look(index);
+            let pictured = self.picture.as_ref().is_some_and(|picture| picture.index == index);
+            let shown = pictured || self.without_picture == Some(index);
+            let told = &self.told;
+            if self.playback.advance(now, shown, |index| !told.contains(&index)) {
+                self.request();
+            }
+            if self.playback.index() == index {
+                return;
+            }
+        }
+    }
+
+    /// Takes in what is known of the frame at the playhead.
+    fn look(&mut self, index: usize) {
+        let Some(run) = &self.run else { return };
+        match run.stream.get(index) {
+            FrameState::Ready(frame) => self.arrive(index, frame),
+            FrameState::Failed(why) => self.pass_over(index, &why),
+            FrameState::NotLoaded | FrameState::Loading => {}
+        }
+    }
+
+    fn arrive(&mut self, index: usize, frame: Arc<Frame>) {
+        if self.frame.as_ref().is_some_and(|(known, here)| *known == index && Arc::ptr_eq(here, &frame)) {
+            return;
+        }
+        let name = self.run.as_ref().map_or("", |run| run.name(index));
+        for warning in &frame.warnings {
+            self.messages.warn(format!("{name}: {warning}"));
+        }
+        self.frame = Some((index, frame));
+    }
+
+    fn pass_over(&mut self, index: usize, why: &str) {
+        if self.told.insert(index) {
+            let name = self.run.as_ref().map_or("", |run| run.name(index));
+            let what = if self.playback.count() > 1 { "left out" } else { "not readable" };
+            self.messages.error(format!("Frame {} ({name}) is {what}: {why}", index + 1));
+            self.log(format!("bad frame={}", index + 1));
+        }
+        let forwards = match self.playback.arrival() {
+            Arrival::Jumped if !self.playback.playing() => return,
+            Arrival::Backwards => false,
+            Arrival::Jumped | Arrival::Forwards => true,
+        };
+        if !self.step(forwards) {
+            self.playback.pause();
+            self.playback.jump(index);
+        }
+    }
+
+    /// The job for the renderer, where what is wanted has changed. `room` is the place for the
+    /// picture in the window, in physical pixels.
+    pub fn job(&mut self, now: Instant, room: [u32; 2]) -> Option<Job> {
+        self.room = room;
+        let moving = self.playback.playing() || self.moving_until.is_some_and(|until| now < until);
+        let (index, frame) = self.frame.as_ref()?;
+        if self.without_picture == Some(*index) && self.playback.playing() {
+            return None;
+        }
+        let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving };
+        if job.view.image.width == 0 || job.view.image.height == 0 {
+            return None;
+        }
+        let same = |asked: &Job| {
+            Arc::ptr_eq(&asked.frame, &job.frame) && asked.view == job.view && asked.moving == job.moving
+        };
+        if self.asked.as_ref().is_some_and(same) {
+            return None;
+        }
+        self.asked = Some(job.clone());
+        Some(job)
+    }
+
+    /// Asks for the next job although nothing has changed.
+    pub fn ask_again(&mut self) {
+        self.asked = None;
+    }
+
+    /// The view as the window shows it: as large as there is room.
+    fn drawn_view(&self) -> View {
+        let mut view = self.complete_view();
+        [view.image.width, view.image.height] = self.fitted();
+        view
+    }
+
+    /// The largest picture of the image's shape that fits into the window, in physical pixels.
+    pub fn fitted(&self) -> [u32; 2] {
+        let [width, height] = self.room;
+        if self.fits_window {
+            return [width, height];
+        }
+        let (across, down) = (self.view.image.width.max(1), self.view.image.height.max(1));
+        let (across, down) = (u64::from(across), u64::from(down));
+        let high = u64::from(width) * down / across;
+        match high <= u64::from(height) {
+            true => [width, (high as u32).max(1)],
+            false => [((u64::from(height) * across / down) as u32).max(1), height],
+        }
+    }
+
+    /// The view with everything that the session decides: what is saved, and what a saved picture
+    /// is made from.
+    pub fn complete_view(&self) -> View {
+        let mut view = self.view.clone();
+        if let Some(camera) = self.camera {
+            view.camera = Some(camera.to_view());
+        }
+        if self.fits_window && self.room != [0, 0] {
+            [view.image.width, view.image.height] = self.room;
+        }
+        view.quantity.range = match self.range_source {
+            RangeSource::Frame => None,
+            RangeSource::Seen => self.seen.get(&self.view.quantity.name).copied(),
+            RangeSource::Fixed => self.view.quantity.range,
+        };
+        view
+    }
+
+    /// Takes note of what the renderer reports; the picture itself is the caller's.
+    pub fn note(&mut self, report: &Report) {
+        match report {
+            Report::Adapter { name, software } => {
+                self.adapter = Some((name.clone(), *software));
+                self.log(format!("adapter {name}"));
+            }
+            Report::Picture(shown) => self.note_picture(shown),
+            Report::Failed { index, text } => {
+                self.without_picture = Some(*index);
+                self.messages.error(text.clone());
+                self.log(format!("failed frame={} {text}", index + 1));
+            }
+            Report::Recovered(text) => self.messages.warn(text.clone()),
+        }
+    }
+
+    fn note_picture(&mut self, shown: &Shown) {
+        self.without_picture = None;
+        let facts = &shown.facts;
+        let aspect = f64::from(shown.full[0]) / f64::from(shown.full[1].max(1));
+        let margin = facts.support_radii[1];
+        match &mut self.camera {
+            Some(camera) => camera.set_scene(facts.bounds, margin),
+            None => {
+                let mut camera = OrbitCamera::overview(facts.bounds, margin, aspect);
+                if let Some(view) = self.view.camera.take() {
+                    camera.adopt(&view);
+                }
+                self.camera = Some(camera);
+            }
+        }
+        if facts.rejected.total() > 0 {
+            let total = facts.rejected.total();
+            let (non_finite, bad_radius) = (facts.rejected.non_finite, facts.rejected.bad_radius);
+            self.messages.warn(format!(
+                "{total} particles are left out: {non_finite} not finite, {bad_radius} without a valid radius"
+            ));
+        }
+        let size = if shown.divisor == 1 { "full".into() } else { format!("1/{}", shown.divisor) };
+        self.log(format!("picture frame={} {}x{} {size}", shown.index + 1, shown.width, shown.height));
+        self.picture = Some(PictureFacts {
+            index: shown.index,
+            divisor: shown.divisor,
+            full: shown.full,
+            stats: shown.stats.clone(),
+            facts: facts.clone(),
+        });
+    }
+
+    /// What is to be counted for the histogram, where that is not known.
+    pub fn question(&self) -> Option<Question> {
+        let (index, frame) = self.frame.as_ref()?;
+        let question = Question {
+            index: *index,
+            frame: Arc::clone(frame),
+            quantity: self.view.quantity.name.clone(),
+            range: self.complete_view().quantity.range,
+        };
+        let known = self.analysis.as_ref().is_some_and(|answer| question.is_answered_by(answer));
+        (!known).then_some(question)
+    }
+
+    pub fn answer(&mut self, analysis: Analysis) {
+        if let Some([low, high]) = analysis.extremes {
+            let seen = self.seen.entry(analysis.quantity.clone()).or_insert([low, high]);
+            *seen = [seen[0].min(low), seen[1].max(high)];
+        }
+        self.analysis = Some(analysis);
+    }
+
+    /// The range in effect, where it is known.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        let extremes = || self.analysis.as_ref().and_then(|analysis| analysis.extremes);
+        self.complete_view().quantity.range.or_else(extremes)
+    }
+
+    /// Puts the whole frame in view.
+    pub fn reset_camera(&mut self) {
+        let [width, height] = self.fitted();
+        let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
+        if let (Some(camera), Some(picture)) = (&mut self.camera, &self.picture) {
+            camera.reset(picture.facts.bounds, picture.facts.support_radii[1], aspect);
+        }
+    }
+
+    /// When to look again although nothing happens.
+    pub fn due(&self, now: Instant) -> Option<Instant> {
+        let settled = self.moving_until.filter(|until| now < *until);
+        [settled, self.playback.due(), self.messages.due()].into_iter().flatten().min()
+    }
+
+    pub fn log(&mut self, event: impl Into<String>) {
+        self.events.push(event.into());
+    }
+
+    /// The events since the last call.
+    pub fn take_events(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.events)
+    }
+}
+
+#[cfg(test)]
+#[path = "session_tests.rs"]
+mod tests;

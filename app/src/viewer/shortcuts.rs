@@ -1,0 +1,133 @@
+//! What the program can be told to do, and by which keys: one table for the keyboard and for the help.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::orbit_camera::Side;
+
+/// A command to the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    OpenFiles,
+    OpenFolder,
+    OpenDemo,
+    LoadView,
+    SaveView,
+    SavePicture,
+    QuickSave,
+    PlayPause,
+    StepForward,
+    StepBack,
+    First,
+    Last,
+    Reset,
+    Look(Side),
+    ZoomIn,
+    ZoomOut,
+    Fly,
+    Panels,
+    FullScreen,
+    Help,
+    Quit,
+}
+
+/// A line of the help, and the keys that call its action.
+pub struct Shortcut {
+    pub group: &'static str,
+    pub keys: KeyboardShortcut,
+    pub action: Action,
+    pub meaning: &'static str,
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+const fn key(
+    group: &'static str,
+    modifiers: Modifiers,
+    key: Key,
+    action: Action,
+    meaning: &'static str,
+) -> Shortcut {
+    Shortcut { group, keys: KeyboardShortcut::new(modifiers, key), action, meaning }
+}
+
+/// Every shortcut. Those with more modifiers come first: a key with Ctrl is also that key.
+pub const SHORTCUTS: [Shortcut; 28] = [
+    key("Files", CTRL, Key::O, Action::OpenFiles, "Open files"),
+    key("Files", CTRL_SHIFT, Key::O, Action::OpenFolder, "Open a folder as a sequence"),
+    key("Files", CTRL, Key::L, Action::LoadView, "Load a view"),
+    key("Files", CTRL, Key::S, Action::SaveView, "Save the view"),
+    key("Files", CTRL, Key::E, Action::SavePicture, "Save the picture"),
+    key("Files", CTRL_SHIFT, Key::E, Action::QuickSave, "Save picture and view here, without asking"),
+    key("Files", CTRL, Key::Q, Action::Quit, "Quit"),
+    key("Time", NONE, Key::Space, Action::PlayPause, "Play or pause"),
+    key("Time", NONE, Key::ArrowRight, Action::StepForward, "Next frame"),
+    key("Time", NONE, Key::ArrowLeft, Action::StepBack, "Previous frame"),
+    key("Time", CTRL, Key::ArrowLeft, Action::First, "First frame"),
+    key("Time", CTRL, Key::ArrowRight, Action::Last, "Last frame"),
+    key("Camera", NONE, Key::Home, Action::Reset, "Whole scene in view"),
+    key("Camera", NONE, Key::Num1, Action::Look(Side::PosX), "Look from +X"),
+    key("Camera", NONE, Key::Num2, Action::Look(Side::NegX), "Look from −X"),
+    key("Camera", NONE, Key::Num3, Action::Look(Side::PosY), "Look from +Y"),
+    key("Camera", NONE, Key::Num4, Action::Look(Side::NegY), "Look from −Y"),
+    key("Camera", NONE, Key::Num5, Action::Look(Side::PosZ), "Look from +Z"),
+    key("Camera", NONE, Key::Num6, Action::Look(Side::NegZ), "Look from −Z"),
+    key("Camera", NONE, Key::Plus, Action::ZoomIn, "Zoom in"),
+    key("Camera", NONE, Key::Equals, Action::ZoomIn, ""),
+    key("Camera", NONE, Key::Minus, Action::ZoomOut, "Zoom out"),
+    key("Camera", NONE, Key::F, Action::Fly, "Fly mode on or off"),
+    key("Window", NONE, Key::P, Action::Panels, "Side panel on or off"),
+    key("Window", NONE, Key::F11, Action::FullScreen, "Full screen on or off"),
+    key("Window", NONE, Key::H, Action::Help, "This help"),
+    key("Window", NONE, Key::F1, Action::Help, ""),
+    key("Window", NONE, Key::Questionmark, Action::Help, ""),
+];
+
+/// What the mouse does over the picture, and the keys that act as long as they are held.
+pub const GESTURES: [(&str, &str); 9] = [
+    ("Left drag", "Orbit; look around in fly mode"),
+    ("Right or middle drag", "Pan"),
+    ("Shift + left drag", "Pan"),
+    ("Wheel, pinch", "Zoom to the cursor; speed in fly mode"),
+    ("Ctrl + left drag", "Zoom to the centre"),
+    ("Double click", "Turn around this point"),
+    ("W A S D", "Fly forward, left, back, right"),
+    ("Q E", "Fly down, up"),
+    ("Shift", "Fly faster"),
+];
+
+/// Takes the actions out of the keyboard input.
+pub fn pressed(context: &egui::Context) -> Vec<Action> {
+    if context.egui_wants_keyboard_input() {
+        return Vec::new();
+    }
+    let mut order: Vec<&Shortcut> = SHORTCUTS.iter().collect();
+    order.sort_by_key(|shortcut| {
+        let modifiers = shortcut.keys.modifiers;
+        std::cmp::Reverse(u8::from(modifiers.command) + u8::from(modifiers.shift))
+    });
+    context.input_mut(|input| {
+        order
+            .into_iter()
+            .flat_map(|Shortcut { keys, action, .. }| {
+                let times = input.count_and_consume_key(keys.modifiers, keys.logical_key);
+                std::iter::repeat_n(*action, times)
+            })
+            .collect()
+    })
+}
+
+/// What a tooltip says of an action: its meaning and its keys.
+pub fn hint(context: &egui::Context, action: Action) -> String {
+    let found = SHORTCUTS.iter().find(|shortcut| shortcut.action == action);
+    found.map_or_else(String::new, |shortcut| {
+        format!("{}  ({})", shortcut.meaning, context.format_shortcut(&shortcut.keys))
+    })
+}
+
+/// The keys that call an action, in words; empty where there are none.
+pub fn keys(context: &egui::Context, action: Action) -> String {
+    let found = SHORTCUTS.iter().find(|shortcut| shortcut.action == action);
+    found.map_or_else(String::new, |shortcut| context.format_shortcut(&shortcut.keys))
+}

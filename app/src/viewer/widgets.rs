@@ -1,0 +1,175 @@
+//! The few shapes that every panel is made of.
+
+use egui::collapsing_header::CollapsingState;
+use egui::{Align, Align2, Color32, Layout, Response, RichText, Sense, Stroke, Ui, pos2, vec2};
+
+use super::theme;
+
+/// A titled part of the side panel that folds away.
+pub fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    let id = ui.make_persistent_id(("section", title));
+    let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), Sense::click());
+    let response = response.accessible_name(title);
+    if response.clicked() {
+        state.toggle(ui);
+    }
+    let colour = if response.hovered() { theme::TEXT } else { theme::MUTED };
+    let painter = ui.painter();
+    let text = RichText::new(title).size(13.5).strong().color(colour);
+    let galley = egui::WidgetText::from(text).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Extend),
+        f32::INFINITY,
+        egui::TextStyle::Body,
+    );
+    let place = pos2(rect.left() + 18.0, rect.center().y - 0.5 * galley.size().y);
+    painter.galley(place, galley, colour);
+    chevron(painter, pos2(rect.left() + 5.0, rect.center().y), state.openness(ui.ctx()), colour);
+    state.show_body_unindented(ui, |ui| {
+        contents(ui);
+        ui.add_space(theme::GAP);
+    });
+    let line = ui.cursor().top();
+    ui.painter().hline(rect.x_range().expand(f32::from(theme::MARGIN)), line, Stroke::new(1.0, theme::LINE));
+    ui.add_space(1.0);
+}
+
+/// A mark that points right when closed and down when open.
+fn chevron(painter: &egui::Painter, centre: egui::Pos2, openness: f32, colour: Color32) {
+    let turn = egui::emath::Rot2::from_angle(openness * std::f32::consts::FRAC_PI_2);
+    let points = [vec2(-1.8, -3.6), vec2(1.8, 0.0), vec2(-1.8, 3.6)].map(|p| centre + turn * p);
+    painter.line(points.to_vec(), Stroke::new(1.4, colour));
+}
+
+/// A label and, in a column of their own, the things that it labels.
+pub fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal(|ui| {
+        ui.set_min_height(theme::ROW_HEIGHT);
+        let size = vec2(theme::LABEL_WIDTH, theme::ROW_HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let font = egui::TextStyle::Body.resolve(ui.style());
+        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, label, font, theme::MUTED);
+        contents(ui)
+    })
+    .inner
+}
+
+/// A label, and a value that stands at the right edge.
+pub fn fact(ui: &mut Ui, label: &str, value: impl Into<String>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(label).color(theme::MUTED));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let text = RichText::new(value.into()).font(theme::number_font());
+            ui.add(egui::Label::new(text).truncate());
+        });
+    });
+}
+
+/// Choices side by side, of which one holds. Returns whether another one was chosen.
+pub fn choice<T: PartialEq + Copy>(ui: &mut Ui, chosen: &mut T, choices: &[(T, &str, &str)]) -> bool {
+    let gap = 2.0;
+    let width = (ui.available_width() - gap * (choices.len() as f32 - 1.0)) / choices.len() as f32;
+    let before = *chosen;
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = gap;
+        ui.spacing_mut().button_padding.x = 2.0;
+        for (value, label, hint) in choices {
+            let here = *chosen == *value;
+            let text = RichText::new(*label).color(if here { Color32::WHITE } else { theme::MUTED });
+            let fill = if here { theme::ACCENT_DEEP } else { theme::RAISED };
+            let button = egui::Button::new(text).fill(fill).min_size(vec2(width, theme::ROW_HEIGHT));
+            let response = ui.add(button).accessible_name(*label);
+            let response = if hint.is_empty() { response } else { response.on_hover_text(*hint) };
+            if response.clicked() {
+                *chosen = *value;
+            }
+        }
+    });
+    *chosen != before
+}
+
+/// A button of a width.
+pub fn wide_button(ui: &mut Ui, label: &str, width: f32) -> Response {
+    ui.add(egui::Button::new(label).min_size(vec2(width, theme::ROW_HEIGHT)))
+}
+
+/// A number in an unbounded unit: as many digits as tell something, dragged in proportion to its size.
+pub fn number<'a>(value: &'a mut f64, scale: f64) -> egui::DragValue<'a> {
+    let speed = (value.abs().max(scale.abs()) * 0.005).max(f64::MIN_POSITIVE);
+    egui::DragValue::new(value).speed(speed).custom_formatter(|value, _| short(value))
+}
+
+/// Four significant digits, with an exponent where that is shorter.
+pub fn short(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let exponent = value.abs().log10().floor();
+    if !(-3.0..6.0).contains(&exponent) {
+        return format!("{value:.3e}");
+    }
+    let decimals = (3.0 - exponent).clamp(0.0, 6.0) as usize;
+    let text = format!("{value:.decimals$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// A count with its thousands apart.
+pub fn count(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place) % 3 == 0 {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A count in thousands, millions or billions.
+pub fn large(value: u64) -> String {
+    match value as f64 {
+        v if v >= 1e12 => format!("{:.2} T", v / 1e12),
+        v if v >= 1e9 => format!("{:.2} G", v / 1e9),
+        v if v >= 1e6 => format!("{:.2} M", v / 1e6),
+        v if v >= 1e4 => format!("{:.1} k", v / 1e3),
+        v => format!("{v:.0}"),
+    }
+}
+
+/// Bytes in the unit that suits them.
+pub fn bytes(value: u64) -> String {
+    match value as f64 {
+        v if v >= 1024.0 * 1024.0 * 1024.0 => format!("{:.2} GiB", v / (1024.0 * 1024.0 * 1024.0)),
+        v if v >= 1024.0 * 1024.0 => format!("{:.1} MiB", v / (1024.0 * 1024.0)),
+        v => format!("{:.1} KiB", v / 1024.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_short_as_they_can_be() {
+        assert_eq!(short(0.0), "0");
+        assert_eq!(short(1.0), "1");
+        assert_eq!(short(-0.05), "-0.05");
+        assert_eq!(short(1234.5), "1234");
+        assert_eq!(short(123_456.0), "123456");
+        assert_eq!(short(1.234_56e-8), "1.235e-8");
+        assert_eq!(short(120.0), "120");
+    }
+
+    #[test]
+    fn counts_are_grouped() {
+        assert_eq!(count(7), "7");
+        assert_eq!(count(1234), "1\u{202f}234");
+        assert_eq!(large(1_400_000_000), "1.40 G");
+        assert_eq!(bytes(3 << 20), "3.0 MiB");
+    }
+}
