@@ -9,7 +9,6 @@ use reference::device::assert_alike;
 use reference::scenes::Scene;
 use renderer::View;
 use sphcast::frames::Frame;
-use sphcast::frames::readers::{vtk_legacy, vtk_xml};
 
 /// Side of the pictures in pixels.
 const SIDE: u32 = 96;
@@ -20,9 +19,7 @@ fn read(file: &Path) -> Option<Frame> {
         println!("skipped: {} is absent", file.display());
         return None;
     }
-    let bytes = std::fs::read(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-    let parse = if file.extension().is_some_and(|e| e == "vtu") { vtk_xml::parse } else { vtk_legacy::parse };
-    Some(parse(&bytes).unwrap_or_else(|fault| panic!("{}: {fault:?}", file.display())))
+    Some(sphcast::frames::readers::read(file).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// The frame `data` seen with `view`, both as named in the folder of shared data.
