@@ -108,16 +108,21 @@ pub fn particles(frame: &Frame, support_radius: Option<f64>) -> Result<ParticleS
     if frame.len() > ParticleSet::MAX_PARTICLES {
         return Err(SceneError::TooManyParticles(frame.len()));
     }
-    let support = Support::new(frame, support_radius);
+    let (support, volume) = (Support::new(frame, support_radius), volumes(frame));
+    Ok(ParticleSet::new(frame.len(), |row| RawParticle {
+        position: frame.position(row),
+        support_radius: support.radius(row),
+        volume: volume(row),
+    }))
+}
+
+/// The volume of each particle, m/ρ or 1.
+fn volumes(frame: &Frame) -> impl Fn(usize) -> f64 + Sync {
     let scalar =
         |name| frame.field(name).map(|field| &field.column).filter(|column| column.components() == 1);
     let density = scalar("density").filter(|column| all_positive(column));
     let mass = scalar("mass").filter(|_| density.is_some());
-    Ok(ParticleSet::new(frame.len(), |row| RawParticle {
-        position: frame.position(row),
-        support_radius: support.radius(row),
-        volume: mass.map_or(1.0, |m| m.get(row, 0)) / density.map_or(1.0, |rho| rho.get(row, 0)),
-    }))
+    move |row| mass.map_or(1.0, |m| m.get(row, 0)) / density.map_or(1.0, |rho| rho.get(row, 0))
 }
 
 /// The quantity of the kept particles: the one that the view names, or [`Selection::default_of`] the frame.
@@ -240,3 +245,7 @@ fn all_positive(column: &Column) -> bool {
         value.is_finite() && value > 0.0
     })
 }
+
+#[cfg(test)]
+#[path = "scene_tests.rs"]
+mod tests;

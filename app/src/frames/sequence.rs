@@ -219,7 +219,8 @@ impl FrameSource for Source {
 }
 
 /// Endings of the files that there are readers for, in lower case. A `.json` is a sidecar.
-const ENDINGS: [&str; 11] = ["vtk", "vtu", "vtp", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5"];
+const ENDINGS: [&str; 12] =
+    ["vtk", "vtu", "vtp", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5", "hdf"];
 
 fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
