@@ -210,28 +210,27 @@ impl<'a> Selection<'a> {
     /// for the constant.
     pub fn name(&self) -> Option<String> {
         let name = names::canonical(&self.field?.name);
-        Some(match self.component {
-            Some(component @ 0..3) => format!("{name}.{}", ["x", "y", "z"][component]),
-            Some(component) => format!("{name}.{component}"),
-            None => name,
-        })
+        Some(self.component.map_or(name.clone(), |c| format!("{name}.{}", component_name(c))))
     }
 }
 
 /// Names that select something in `frame`, for a menu: each field, and the components of vectors.
 pub fn quantity_names(frame: &Frame) -> Vec<String> {
-    let names = |field: &Field| {
-        let components = match field.column.components() {
-            1 => 0,
-            n => n,
-        };
-        let field = Some(field);
-        let selections = std::iter::once(Selection { field, component: None })
-            .chain((0..components).map(|c| Selection { field, component: Some(c) }))
-            .filter_map(|selection| selection.name());
-        selections.collect::<Vec<_>>()
-    };
-    frame.fields().iter().flat_map(names).collect()
+    frame.fields().iter().flat_map(|field| names_in(frame, field)).collect()
+}
+
+fn names_in(frame: &Frame, field: &Field) -> Vec<String> {
+    let canonical = names::canonical(&field.name);
+    // Of two fields with one canonical name, one answers to its own name only.
+    let answers = frame.field(&canonical).is_some_and(|found| std::ptr::eq(found, field));
+    let name = if answers { canonical } else { field.name.trim().to_owned() };
+    let components = if field.column.components() > 1 { field.column.components() } else { 0 };
+    let component = |c: usize| format!("{name}.{}", component_name(c));
+    std::iter::once(name.clone()).chain((0..components).map(component)).collect()
+}
+
+fn component_name(component: usize) -> String {
+    ["x", "y", "z"].get(component).map_or_else(|| component.to_string(), |&name| name.to_owned())
 }
 
 fn list(frame: &Frame) -> String {

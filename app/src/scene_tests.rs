@@ -82,6 +82,8 @@ fn names_select_fields_components_and_lengths() {
     for name in &names {
         assert_eq!(Selection::new(&frame, Some(name)).unwrap().name().as_ref(), Some(name));
     }
+    let twice = bare(&[("rho", vec![1.0; 4]), ("Density", vec![2.0; 4])]);
+    assert_eq!(quantity_names(&twice), ["rho", "density"]);
 }
 
 #[test]

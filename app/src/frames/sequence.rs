@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::generate::Generated;
 use super::stream::FrameSource;
 use super::{Frame, demo, natural, readers};
+use crate::io_error::describe;
 
 /// The frames of a run, in the order in which they are shown.
 #[derive(Clone, Debug, Default)]
@@ -248,13 +249,4 @@ fn matches(pattern: &str) -> Result<Vec<PathBuf>, String> {
     let readable: Vec<PathBuf> = files.iter().filter(|path| is_readable(path)).cloned().collect();
     let found = if readable.is_empty() { files } else { readable };
     if found.is_empty() { Err("matches no file".into()) } else { Ok(found) }
-}
-
-/// What the system says, without its error number.
-fn describe(error: &std::io::Error) -> String {
-    match error.kind() {
-        std::io::ErrorKind::NotFound => "no such file or directory".into(),
-        std::io::ErrorKind::PermissionDenied => "permission denied".into(),
-        _ => error.to_string(),
-    }
 }
