@@ -75,6 +75,10 @@ impl Column {
         &self.data
     }
 
+    pub fn into_numbers(self) -> Numbers {
+        self.data
+    }
+
     /// The number in `row` and `component`; panics outside the table.
     #[inline]
     pub fn get(&self, row: usize, component: usize) -> f64 {
