@@ -55,6 +55,8 @@ pub struct Support<'a> {
     /// Factor of the field, or the radius itself where there is no field.
     factor: f64,
     field: Option<&'a Column>,
+    /// Particle radii that must be valid, although one radius for all is taken.
+    checked: Option<&'a Column>,
 }
 
 impl<'a> Support<'a> {
@@ -64,11 +66,17 @@ impl<'a> Support<'a> {
     /// median spacing. Particles all in one place get 1.
     ///
     /// A frame-wide radius that is not positive and finite is passed over; one of a single particle
-    /// is kept, for [`ParticleSet`] to leave that particle out.
+    /// is kept, for [`ParticleSet`] to leave that particle out. A particle whose `radius` is invalid is
+    /// left out where a radius of the frame is taken, too.
     pub fn new(frame: &'a Frame, view: Option<f64>) -> Support<'a> {
         let positive = |radius: &f64| radius.is_finite() && *radius > 0.0;
-        let one = |source, factor| Support { source, factor, field: None };
-        let each = |source, factor, field: &'a Field| Support { source, factor, field: Some(&field.column) };
+        let one = |source, factor| Support { source, factor, field: None, checked: None };
+        let each = |source, factor, field: &'a Field| Support {
+            source,
+            factor,
+            field: Some(&field.column),
+            checked: None,
+        };
         let scalar = |name| frame.field(name).filter(|field| field.column.components() == 1);
 
         if let Some(radius) = view {
@@ -80,7 +88,8 @@ impl<'a> Support<'a> {
         }
         // Before a field: what `demo:radial` calls radius is no radius of its particles.
         if let Some(radius) = frame.metadata.support_radius.filter(positive) {
-            return one(SupportSource::Metadata, radius);
+            let checked = scalar("radius").map(|field| &field.column);
+            return Support { checked, ..one(SupportSource::Metadata, radius) };
         }
         if let Some(field) = scalar("radius") {
             return each(SupportSource::RadiusField, 4.0, field);
@@ -96,7 +105,12 @@ impl<'a> Support<'a> {
 
     /// Support radius of one particle, as given: it may be negative or not finite.
     pub fn radius(&self, row: usize) -> f64 {
-        self.field.map_or(self.factor, |field| self.factor * field.get(row, 0))
+        let checked = self.checked.map_or(1.0, |radii| radii.get(row, 0));
+        match self.field {
+            _ if !(checked > 0.0 && checked.is_finite()) => checked,
+            Some(field) => self.factor * field.get(row, 0),
+            None => self.factor,
+        }
     }
 }
 

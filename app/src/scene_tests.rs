@@ -63,6 +63,10 @@ fn a_bad_radius_leaves_out_its_particle_only() {
     let q = quantity(&frame, &set, &QuantityView::default()).unwrap();
     let warning = rejected_warning(&frame, &set, &q).unwrap();
     assert_eq!(warning, "3 of 4 particles are left out: support radius not positive and finite (3)");
+
+    let metadata = Metadata { support_radius: Some(0.3), ..Metadata::default() };
+    let set = particles(&self::frame(&[("radius", vec![0.1, -0.1, 0.2, 0.3])], metadata), None).unwrap();
+    assert_eq!((set.len(), set.rejected().bad_radius, set.support_radii()), (3, 1, [0.3; 2]));
 }
 
 #[test]
