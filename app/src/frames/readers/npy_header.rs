@@ -46,7 +46,10 @@ impl Header {
             1 => usize::from(u16::from_le_bytes(cursor.array("the header")?)),
             2 | 3 => u32::from_le_bytes(cursor.array("the header")?) as usize,
             _ => {
-                return Err(Fault::at(format!("version {major} of .npy, expected 1, 2 or 3"), Place::Byte(6)));
+                return Err(Fault::at(
+                    format!("version {major} of .npy, expected 1, 2 or 3"),
+                    Place::Byte(6),
+                ));
             }
         };
         let place = cursor.here();

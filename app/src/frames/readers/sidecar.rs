@@ -11,7 +11,8 @@ use crate::frames::{Frame, Metadata};
 /// A sidecar is a page of text; a larger file is something else.
 const LARGEST: u64 = 16 << 20;
 
-const KEYS: [&str; 6] = ["support_radius", "particle_radius", "particle_mass", "time", "frame_dt", "frames"];
+const KEYS: [&str; 6] =
+    ["support_radius", "particle_radius", "particle_mass", "time", "frame_dt", "frame_list"];
 
 /// Fills in what the frame at `path` leaves open from `<stem>.json`, `frame.json` and `run.json`
 /// beside it, in this order. A sidecar that cannot be used is a warning of the frame.
@@ -91,12 +92,12 @@ impl Entries<'_> {
         }
     }
 
-    /// The entry of the list `frames` that has this number.
+    /// The entry of the list `frame_list` that has this number.
     fn entry<'b>(&self, frame: u64) -> Option<&'b Map<String, Value>>
     where
         Self: 'b,
     {
-        let frames = self.object.get("frames")?.as_array()?;
+        let frames = self.object.get("frame_list")?.as_array()?;
         let is_frame =
             |entry: &&Map<String, Value>| entry.get("frame").and_then(Value::as_u64) == Some(frame);
         frames.iter().filter_map(Value::as_object).find(is_frame)
@@ -138,7 +139,7 @@ mod tests {
     #[test]
     fn the_nearer_sidecar_wins_and_the_list_gives_the_time() {
         let run = r#"{"support_radius": 0.1, "particle_mass": 2, "frame_dt": 0.5,
-                      "frames": [{"frame": 1, "time": 0}, {"frame": 12, "time": 5.5}]}"#;
+                      "frame_list": [{"frame": 1, "time": 0}, {"frame": 12, "time": 5.5}]}"#;
         let frame =
             frame_beside(&[("run.json", run), ("f_12.json", r#"{"support_radius": 0.2}"#)], "f_12.vtk");
         assert_eq!(frame.metadata.support_radius, Some(0.2));

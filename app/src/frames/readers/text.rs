@@ -59,8 +59,9 @@ pub fn number(cell: &str) -> Option<f64> {
 
 #[cold]
 fn unusual_number(cell: &str) -> Option<f64> {
-    if let Some((digits, exponent)) = cell.split_once(['d', 'D']) {
-        return format!("{digits}e{exponent}").parse().ok();
+    let fortran = cell.split_once(['d', 'D']).map(|(digits, exponent)| format!("{digits}e{exponent}"));
+    if let Some(value) = fortran.and_then(|cell| cell.parse().ok()) {
+        return Some(value);
     }
     let bare = cell.trim_start_matches(['-', '+']).to_ascii_lowercase();
     let sign = if cell.starts_with('-') { -1.0 } else { 1.0 };
