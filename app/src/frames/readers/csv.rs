@@ -105,7 +105,8 @@ impl Header {
                 return Ok((header, lines));
             }
             // NumPy writes the header as a comment.
-            let commented = comment.map(|(number, text)| Header::of(number, text[1..].trim()));
+            let commented = comment
+                .map(|(number, text)| Header::of(number, text.trim_start_matches(['#', '%', '/']).trim()));
             return match commented.filter(|names| names.names.len() == header.names.len()) {
                 Some(names) => Ok((Header { separator: header.separator, ..names }, rows)),
                 None => Err(Fault::at(

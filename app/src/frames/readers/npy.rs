@@ -80,7 +80,9 @@ impl<'a> Array<'a> {
         let components = self.header.components();
         let size = scalar.bytes();
         let mut numbers = zeroed(rows * components, scalar.is_double());
-        if self.header.fortran && components > 1 {
+        if rows == 0 {
+            // Nothing to copy, however many components the header claims.
+        } else if self.header.fortran && components > 1 {
             // One column after the other.
             for component in 0..components {
                 let column = &self.data[component * rows * size..(component + 1) * rows * size];
@@ -151,6 +153,14 @@ mod tests {
         let frame = parse(&npy(header, &data)).unwrap();
         assert_eq!(frame.position(0), [1.0, 2.0, 3.0]);
         assert_eq!(frame.fields()[0].column.get(0, 0), 7.0);
+    }
+
+    #[test]
+    fn empty_arrays_with_endless_components_end() {
+        let header = "{'descr': '<f4', 'fortran_order': True, 'shape': (0, 1099511627776), }";
+        assert!(Array::parse(&npy(header, &[])).unwrap().column().unwrap().is_empty());
+        let header = "{'descr': [('a', '<f4', (1099511627776,)), ('pos', '<f4', 3)], 'fortran_order': False, 'shape': (0,), }";
+        assert!(parse(&npy(header, &[])).unwrap().is_empty());
     }
 
     #[test]

@@ -65,6 +65,10 @@ impl Cells {
     /// Copies the cells of all whole rows of `bytes` into the target, row by row.
     pub fn copy(self, bytes: &[u8], target: Target<'_>) {
         let Target { numbers, components, first } = target;
+        if bytes.is_empty() {
+            // No rows: also where the header of an empty array claims components without end.
+            return;
+        }
         let dense = self.count == components && self.stride == self.count * self.scalar.bytes();
         if dense {
             let flat = Cells { offset: 0, stride: self.scalar.bytes(), count: 1, ..self };
