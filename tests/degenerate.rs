@@ -167,7 +167,6 @@ fn quantities_at_the_edge_of_their_numbers() {
 }
 
 #[test]
-#[ignore = "the renderer normalises the particles, so that Q above and below count by weight alone"]
 fn a_range_of_no_width_is_a_threshold() {
     let mut scene = scenes::plain(36, 33, 21);
     scene.name = "range of no width in the middle of the quantity".to_owned();
@@ -252,7 +251,6 @@ fn long_lenses() {
 }
 
 #[test]
-#[ignore = "the renderer's view positions are f32: particles move by up to 6e-8 of their depth"]
 fn very_long_lenses() {
     assert_alike([400.0, 1e3, 1e4, 1e5].map(through_a_long_lens));
 }

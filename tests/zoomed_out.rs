@@ -105,7 +105,6 @@ fn lone_motes_never_vanish() {
 }
 
 #[test]
-#[ignore = "the weight (h/h')^3 underflows in f32 from h/h' = 1e-14 on"]
 fn motes_of_no_size_at_all_never_vanish() {
     let mote = Particle {
         position: DVec3::new(0.01, 0.02, 0.03),

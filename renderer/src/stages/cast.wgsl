@@ -20,8 +20,8 @@ struct Chunk {
 // Where the references of each cell end; those of the first begin at 0.
 @group(0) @binding(6) var<storage, read> cells: array<u32>;
 @group(0) @binding(7) var<storage, read> pairs: array<u32>;
-// Depth of the middle of each layer of cells.
-@group(0) @binding(8) var<storage, read> layer_depth: array<f32>;
+// Depth of the middle of each layer of cells, from the eye and from the pivot.
+@group(0) @binding(8) var<storage, read> layer_depth: array<vec2<f32>>;
 @group(0) @binding(9) var<storage, read> buckets: array<u32>;
 // Premultiplied linear RGB and transparency, 64 pixels a bundle.
 @group(0) @binding(10) var<storage, read_write> pixels: array<vec4<f32>>;
@@ -59,11 +59,12 @@ fn place_in_bundle(lane: u32) -> vec2<u32> {
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
 // `reference`, a value of the cell: where all particles have the same one, the sum is exact.
-fn load_particle(place: u32, lane: u32, middle: vec3<f32>, reference: f32) {
+// `middle`: of the cell, relative to the pivot.
+fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
     let particle = pairs[place];
     let ball = projected[particle];
-    let inverse_radius = middle.z / ball.w;
-    balls[lane] = vec4((ball.xyz - middle) / middle.z, inverse_radius * inverse_radius);
+    let inverse_radius = depth / ball.w;
+    balls[lane] = vec4((ball.xyz - middle) / depth, inverse_radius * inverse_radius);
     let quantity = quantities[particle];
     let weight = select(weights[particle], 0.0, quantity > REJECTED);
     charges[lane] = vec2(weight, select(weight * (quantity - reference), 0.0, quantity > REJECTED));
@@ -105,8 +106,9 @@ fn cast_cell(
     from_axis: vec2<f32>,
     lane: u32,
 ) -> vec4<f32> {
-    let depth = layer_depth[tile.first_layer + layer];
-    let middle = depth * vec3(axis, 1.0);
+    let depths = layer_depth[tile.first_layer + layer];
+    let depth = depths.x;
+    let middle = vec3(depth * axis, depths.y);
     let direction = vec3(slope, 1.0);
     let direction_squared = dot(direction, direction);
     let any_quantity = quantities[pairs[first]];
@@ -121,7 +123,7 @@ fn cast_cell(
 
     for (var base = first; base < end; base += LANES) {
         if base + lane < end {
-            load_particle(base + lane, lane, middle, reference);
+            load_particle(base + lane, lane, middle, depth, reference);
         }
         workgroupBarrier();
         let loaded = min(LANES, end - base);
