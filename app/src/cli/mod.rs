@@ -150,7 +150,7 @@ fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
     viewer::run(viewer::Options {
         sequence,
         view,
-        fixed_size: arguments.view.size.is_some(),
+        fixed_size: arguments.view.size.is_some() || arguments.view.view.is_some(),
         gpu: arguments.device.options(),
         log_events: arguments.log_events,
     })

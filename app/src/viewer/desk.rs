@@ -21,6 +21,7 @@ use super::render_thread::{RenderThread, Report};
 use super::run::{self, Run};
 use super::session::Session;
 use super::shortcuts::Action;
+use super::widgets::Areas;
 use super::{Options, Wake};
 
 /// What was done on another thread.
@@ -55,6 +56,7 @@ pub struct Desk {
     gpu: GpuOptions,
     wake: Wake,
     log_events: bool,
+    areas: Areas,
 }
 
 impl Desk {
@@ -78,6 +80,7 @@ impl Desk {
             gpu: options.gpu,
             wake,
             log_events: options.log_events,
+            areas: Areas::default(),
         };
         desk.open(&options.sequence);
         desk
@@ -90,7 +93,6 @@ impl Desk {
         self.take_done();
         self.take_outcomes();
         self.take_drops(ui.ctx());
-        self.session.poll(now);
         let before = self.session.view.clone();
         let mut actions = super::shortcuts::pressed(ui.ctx());
         let room = super::layout::show(ui, self, &mut actions);
@@ -100,10 +102,26 @@ impl Desk {
         if self.session.view != before {
             self.session.touch(now);
         }
+        self.session.poll(now);
         if let Some(job) = self.session.job(now, room) {
             self.render.submit(job);
         }
         self.count();
+        self.tell(ui.ctx());
+    }
+
+    /// Writes down what happened, and where things are, for scripts that drive the window.
+    fn tell(&mut self, context: &egui::Context) {
+        let areas = Areas::take(context);
+        if areas != self.areas {
+            let scale = context.pixels_per_point();
+            for (name, rect) in &areas.0 {
+                let [x, y] = [rect.left(), rect.top()].map(|place| (place * scale).round());
+                let [width, height] = [rect.width(), rect.height()].map(|side| (side * scale).round());
+                self.session.log(format!("area {name} {x} {y} {width} {height}"));
+            }
+            self.areas = areas;
+        }
         for event in self.session.take_events() {
             if self.log_events {
                 eprintln!("event: {event}");
@@ -296,7 +314,7 @@ impl Desk {
 
     fn file_stem(&self) -> String {
         let index = self.session.frame().map_or(0, |(index, _)| *index);
-        format!("sphcast-{:04}", index + 1)
+        format!("sphcast-{index:04}")
     }
 
     /// Counts values for the histogram, one frame at a time.

@@ -79,7 +79,7 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
         _ => {}
     }
     if let (None, Some(trouble)) = (picture, desk.session.trouble()) {
-        let text = format!("Frame {} cannot be read: {trouble}", desk.session.playback.index() + 1);
+        let text = format!("Frame {} cannot be read: {trouble}", desk.session.playback.index());
         let font = egui::FontId::proportional(15.0);
         ui.painter().text(outer.center(), Align2::CENTER_CENTER, text, font, theme::ERROR);
     }

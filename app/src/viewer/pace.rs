@@ -115,7 +115,7 @@ mod tests {
         pace.learn(1e6, 1, 100.0);
         pace.learn(1e6, 4, 20.0);
         assert_eq!(pace.predict(1), Some(200.0));
-        assert_eq!(pace.resting(), 3);
+        assert_eq!((pace.moving(), pace.resting()), (2, 2));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::orbit_camera::{OrbitCamera, Screen};
 use super::render_thread::Shown;
 use super::session::Session;
 use super::theme;
+use super::widgets::Areas;
 
 /// The picture as a texture, and the mode in which the mouse moves the camera.
 pub struct PictureView {
@@ -55,6 +56,7 @@ impl PictureView {
         let response = ui.allocate_rect(outer, Sense::click_and_drag());
         ui.painter().rect_filled(outer, 0, theme::GROUND);
         let rect = place(outer, session.fitted(), ui.pixels_per_point());
+        Areas::mark(ui, "picture", rect);
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);

@@ -100,6 +100,10 @@ impl Session {
     /// Shows another run, from its first frame on. Keeps what is not about the run itself.
     pub fn open(&mut self, run: Run) {
         let first = self.run.is_none();
+        if run.stream.len() > 1 && self.range_source == RangeSource::Frame {
+            // Colours that jump from frame to frame hide what changes.
+            self.range_source = RangeSource::Seen;
+        }
         self.playback = self.playback.restarted(run.stream.len());
         self.log(format!("opened {} frames={}", run.title, run.stream.len()));
         self.run = Some(run);
@@ -230,8 +234,8 @@ impl Session {
         if self.told.insert(index) {
             let name = self.run.as_ref().map_or("", |run| run.name(index));
             let what = if self.playback.count() > 1 { "left out" } else { "not readable" };
-            self.messages.error(format!("Frame {} ({name}) is {what}: {why}", index + 1));
-            self.log(format!("bad frame={}", index + 1));
+            self.messages.error(format!("Frame {index} ({name}) is {what}: {why}"));
+            self.log(format!("bad frame={index}"));
         }
         let forwards = match self.playback.arrival() {
             Arrival::Jumped if !self.playback.playing() => return,
@@ -323,7 +327,7 @@ impl Session {
             Report::Failed { index, text } => {
                 self.without_picture = Some(*index);
                 self.messages.error(text.clone());
-                self.log(format!("failed frame={} {text}", index + 1));
+                self.log(format!("failed frame={index} {text}"));
             }
             Report::Recovered(text) => self.messages.warn(text.clone()),
         }
@@ -352,7 +356,7 @@ impl Session {
             ));
         }
         let size = if shown.divisor == 1 { "full".into() } else { format!("1/{}", shown.divisor) };
-        self.log(format!("picture frame={} {}x{} {size}", shown.index + 1, shown.width, shown.height));
+        self.log(format!("picture frame={} {}x{} {size}", shown.index, shown.width, shown.height));
         self.picture = Some(PictureFacts {
             index: shown.index,
             divisor: shown.divisor,

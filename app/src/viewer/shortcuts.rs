@@ -59,7 +59,7 @@ pub const SHORTCUTS: [Shortcut; 28] = [
     key("Files", CTRL, Key::L, Action::LoadView, "Load a view"),
     key("Files", CTRL, Key::S, Action::SaveView, "Save the view"),
     key("Files", CTRL, Key::E, Action::SavePicture, "Save the picture"),
-    key("Files", CTRL_SHIFT, Key::E, Action::QuickSave, "Save picture and view here, without asking"),
+    key("Files", CTRL_SHIFT, Key::E, Action::QuickSave, "Save both in this folder"),
     key("Files", CTRL, Key::Q, Action::Quit, "Quit"),
     key("Time", NONE, Key::Space, Action::PlayPause, "Play or pause"),
     key("Time", NONE, Key::ArrowRight, Action::StepForward, "Next frame"),
@@ -67,12 +67,12 @@ pub const SHORTCUTS: [Shortcut; 28] = [
     key("Time", CTRL, Key::ArrowLeft, Action::First, "First frame"),
     key("Time", CTRL, Key::ArrowRight, Action::Last, "Last frame"),
     key("Camera", NONE, Key::Home, Action::Reset, "Whole scene in view"),
-    key("Camera", NONE, Key::Num1, Action::Look(Side::PosX), "Look from +X"),
-    key("Camera", NONE, Key::Num2, Action::Look(Side::NegX), "Look from −X"),
-    key("Camera", NONE, Key::Num3, Action::Look(Side::PosY), "Look from +Y"),
-    key("Camera", NONE, Key::Num4, Action::Look(Side::NegY), "Look from −Y"),
-    key("Camera", NONE, Key::Num5, Action::Look(Side::PosZ), "Look from +Z"),
-    key("Camera", NONE, Key::Num6, Action::Look(Side::NegZ), "Look from −Z"),
+    key("Camera", NONE, Key::Num1, Action::Look(Side::PosX), "Look from +X, −X, +Y, −Y, +Z, −Z"),
+    key("Camera", NONE, Key::Num2, Action::Look(Side::NegX), ""),
+    key("Camera", NONE, Key::Num3, Action::Look(Side::PosY), ""),
+    key("Camera", NONE, Key::Num4, Action::Look(Side::NegY), ""),
+    key("Camera", NONE, Key::Num5, Action::Look(Side::PosZ), ""),
+    key("Camera", NONE, Key::Num6, Action::Look(Side::NegZ), ""),
     key("Camera", NONE, Key::Plus, Action::ZoomIn, "Zoom in"),
     key("Camera", NONE, Key::Equals, Action::ZoomIn, ""),
     key("Camera", NONE, Key::Minus, Action::ZoomOut, "Zoom out"),
@@ -85,16 +85,15 @@ pub const SHORTCUTS: [Shortcut; 28] = [
 ];
 
 /// What the mouse does over the picture, and the keys that act as long as they are held.
-pub const GESTURES: [(&str, &str); 9] = [
-    ("Left drag", "Orbit; look around in fly mode"),
-    ("Right or middle drag", "Pan"),
-    ("Shift + left drag", "Pan"),
-    ("Wheel, pinch", "Zoom to the cursor; speed in fly mode"),
+pub const GESTURES: [(&str, &str); 8] = [
+    ("Left drag", "Orbit"),
+    ("Right drag, Shift + drag", "Pan"),
+    ("Wheel, pinch", "Zoom to the cursor"),
     ("Ctrl + left drag", "Zoom to the centre"),
     ("Double click", "Turn around this point"),
-    ("W A S D", "Fly forward, left, back, right"),
-    ("Q E", "Fly down, up"),
-    ("Shift", "Fly faster"),
+    ("W A S D, Q E", "In fly mode: move, sink and rise"),
+    ("Left drag, wheel", "In fly mode: look around, speed"),
+    ("Shift", "In fly mode: faster"),
 ];
 
 /// Takes the actions out of the keyboard input.

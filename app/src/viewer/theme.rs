@@ -32,6 +32,8 @@ pub const ERROR: Color32 = Color32::from_rgb(0xee, 0x7d, 0x76);
 pub const SIDE_WIDTH: f32 = 320.0;
 pub const LABEL_WIDTH: f32 = 96.0;
 pub const ROW_HEIGHT: f32 = 24.0;
+/// Number fields stand under one another.
+const FIELD_WIDTH: f32 = 76.0;
 pub const GAP: f32 = 6.0;
 pub const MARGIN: i8 = 14;
 const ROUNDING: CornerRadius = CornerRadius::same(4);
@@ -68,7 +70,7 @@ pub fn apply(context: &egui::Context) {
 fn spacing(spacing: &mut egui::style::Spacing) {
     spacing.item_spacing = vec2(GAP, GAP);
     spacing.button_padding = vec2(9.0, 3.0);
-    spacing.interact_size = vec2(40.0, ROW_HEIGHT);
+    spacing.interact_size = vec2(FIELD_WIDTH, ROW_HEIGHT);
     spacing.window_margin = Margin::same(16);
     spacing.menu_margin = Margin::same(6);
     spacing.combo_width = 0.0;
@@ -105,6 +107,8 @@ fn visuals(visuals: &mut egui::Visuals) {
     widgets.noninteractive.bg_stroke = Stroke::new(1.0, LINE);
     widgets.noninteractive.fg_stroke = Stroke::new(1.0, TEXT);
     widgets.inactive = widget(RAISED, TEXT);
+    // Check boxes are small: they need more contrast than buttons do.
+    widgets.inactive.bg_fill = RAISED_PRESS;
     widgets.hovered = widget(RAISED_HOVER, Color32::WHITE);
     widgets.active = widget(RAISED_PRESS, Color32::WHITE);
     widgets.open = widget(RAISED_HOVER, TEXT);

@@ -5,6 +5,26 @@ use egui::{Align, Align2, Color32, Layout, Response, RichText, Sense, Stroke, Ui
 
 use super::theme;
 
+/// Where the parts of the window are that scripts drive it by, for `--log-events`.
+#[derive(Clone, Default, PartialEq)]
+pub struct Areas(pub Vec<(&'static str, egui::Rect)>);
+
+impl Areas {
+    fn id() -> egui::Id {
+        egui::Id::unique("areas")
+    }
+
+    /// Takes note that `name` is at `rect`.
+    pub fn mark(ui: &Ui, name: &'static str, rect: egui::Rect) {
+        ui.ctx().data_mut(|data| data.get_temp_mut_or_default::<Areas>(Areas::id()).0.push((name, rect)));
+    }
+
+    /// The areas of this frame.
+    pub fn take(context: &egui::Context) -> Areas {
+        context.data_mut(|data| data.remove_temp(Areas::id())).unwrap_or_default()
+    }
+}
+
 /// A titled part of the side panel that folds away.
 pub fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
     let id = ui.make_persistent_id(("section", title));
@@ -14,9 +34,9 @@ pub fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut 
     if response.clicked() {
         state.toggle(ui);
     }
-    let colour = if response.hovered() { theme::TEXT } else { theme::MUTED };
+    let colour = if response.hovered() { Color32::WHITE } else { theme::TEXT };
     let painter = ui.painter();
-    let text = RichText::new(title).size(13.5).strong().color(colour);
+    let text = RichText::new(title).size(14.0).color(colour);
     let galley = egui::WidgetText::from(text).into_galley(
         ui,
         Some(egui::TextWrapMode::Extend),

@@ -32,14 +32,22 @@ impl From<accesskit_winit::Event> for Event {
     }
 }
 
-const NO_DISPLAY: &str = "no window can be opened: run it in a graphical session, or draw without a \
-                          window: sphcast render FILE --out picture.png";
+/// Why there is no window, and what to do about it.
+fn no_display(error: impl std::fmt::Display) -> anyhow::Error {
+    // winit puts the place in its own source first.
+    let text = error.to_string();
+    let why = text.rsplit(": ").next().unwrap_or_default().trim_end_matches('.');
+    anyhow!(
+        "display: no window can be opened ({why}): run it in a graphical session, or draw without a window: \
+         sphcast render FILE --out picture.png"
+    )
+}
 
 pub fn run(options: Options) -> anyhow::Result<()> {
     let events = EventLoop::<Event>::with_user_event().build();
-    let events = events.map_err(|error| anyhow!("display: {NO_DISPLAY} ({error})"))?;
+    let events = events.map_err(no_display)?;
     let mut app = App { state: State::Waiting(Some(options)), proxy: events.create_proxy(), failure: None };
-    events.run_app(&mut app).map_err(|error| anyhow!("display: {NO_DISPLAY} ({error})"))?;
+    events.run_app(&mut app).map_err(no_display)?;
     app.failure.map_or(Ok(()), Err)
 }
 
@@ -132,9 +140,7 @@ impl Open {
             .with_inner_size(LogicalSize::new(1280.0, 800.0))
             .with_min_inner_size(LogicalSize::new(640.0, 420.0))
             .with_visible(false);
-        let window =
-            events.create_window(attributes).map_err(|error| anyhow!("display: {NO_DISPLAY} ({error})"))?;
-        let window = Arc::new(window);
+        let window = Arc::new(events.create_window(attributes).map_err(no_display)?);
         let glass = Glass::new(events, &window, &proxy)?;
         let sender = proxy.clone();
         // The window is gone when nobody listens.

@@ -2,18 +2,22 @@
 
 use egui::{Align2, RichText, Ui, vec2};
 
-use crate::viewer::shortcuts::{GESTURES, SHORTCUTS, Shortcut};
+use crate::viewer::shortcuts::{Action, GESTURES, SHORTCUTS, Shortcut};
 use crate::viewer::theme;
+
+/// Column of the keys, in points.
+const KEYS_WIDTH: f32 = 156.0;
 
 pub fn show(ui: &Ui, open: &mut bool) {
     if !*open {
         return;
     }
-    let response = egui::Modal::new(egui::Id::unique("help")).show(ui.ctx(), |ui| {
-        ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+    let frame = egui::Frame::window(ui.style()).inner_margin(24);
+    let response = egui::Modal::new(egui::Id::unique("help")).frame(frame).show(ui.ctx(), |ui| {
+        ui.set_width(760.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         ui.label(RichText::new("Keyboard and mouse").heading().strong());
         ui.add_space(8.0);
-        let height = ui.ctx().content_rect().height() - 160.0;
+        let height = ui.ctx().content_rect().height() - 190.0;
         egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
             ui.columns_const(|[left, right]| {
                 mouse(left);
@@ -32,6 +36,7 @@ pub fn show(ui: &Ui, open: &mut bool) {
 }
 
 fn mouse(ui: &mut Ui) {
+    ui.spacing_mut().item_spacing.y = 2.0;
     title(ui, "Mouse and flying");
     for (gesture, meaning) in GESTURES {
         line(ui, gesture, meaning);
@@ -40,10 +45,15 @@ fn mouse(ui: &mut Ui) {
 }
 
 fn group(ui: &mut Ui, name: &str) {
+    ui.spacing_mut().item_spacing.y = 2.0;
     title(ui, name);
     let here = |shortcut: &&Shortcut| shortcut.group == name && !shortcut.meaning.is_empty();
     for shortcut in SHORTCUTS.iter().filter(here) {
-        let keys = ui.ctx().format_shortcut(&shortcut.keys);
+        let keys = match shortcut.action {
+            // Six keys, one line.
+            Action::Look(_) => "1 to 6".to_owned(),
+            _ => ui.ctx().format_shortcut(&shortcut.keys),
+        };
         line(ui, &keys, shortcut.meaning);
     }
     ui.add_space(10.0);
@@ -54,10 +64,10 @@ fn title(ui: &mut Ui, name: &str) {
 }
 
 fn line(ui: &mut Ui, keys: &str, meaning: &str) {
-    ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(vec2(136.0, 18.0), egui::Sense::hover());
-        let font = egui::FontId::proportional(13.0);
-        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, keys, font, theme::MUTED);
-        ui.label(meaning);
-    });
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), egui::Sense::hover());
+    let font = egui::FontId::proportional(13.5);
+    let painter = ui.painter();
+    painter.text(rect.left_center(), Align2::LEFT_CENTER, keys, font.clone(), theme::MUTED);
+    let place = rect.left_center() + vec2(KEYS_WIDTH, 0.0);
+    painter.text(place, Align2::LEFT_CENTER, meaning, font, theme::TEXT);
 }

@@ -4,7 +4,7 @@ use egui::Ui;
 use renderer::ImageView;
 
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint};
+use crate::viewer::shortcuts::{Action, hint, keys};
 use crate::viewer::widgets;
 
 /// Sizes on offer.
@@ -30,8 +30,14 @@ pub fn show(ui: &mut Ui, session: &mut Session, legend: &mut bool, actions: &mut
         if save.on_hover_text(hint(ui.ctx(), Action::SavePicture)).clicked() {
             actions.push(Action::SavePicture);
         }
-        let quick = widgets::wide_button(ui, "Save here", width);
-        if quick.on_hover_text(hint(ui.ctx(), Action::QuickSave)).clicked() {
+        let quick = widgets::wide_button(ui, "Save in folder", width);
+        if quick
+            .on_hover_text(format!(
+                "Picture and view, in the folder where the program was started  ({})",
+                keys(ui.ctx(), Action::QuickSave)
+            ))
+            .clicked()
+        {
             actions.push(Action::QuickSave);
         }
     });

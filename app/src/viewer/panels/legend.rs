@@ -40,8 +40,10 @@ pub fn show(ui: &Ui, session: &Session, picture: Rect) {
     }
     ui.painter().add(Shape::mesh(mesh));
     ui.painter().rect_stroke(bar, 1, Stroke::new(1.0, Color32::from_white_alpha(70)), StrokeKind::Outside);
-    for tick in 0..=TICKS {
-        let u = f64::from(tick) / f64::from(TICKS);
+    // Where all values are one, so are the ticks.
+    let ticks = if low < high { TICKS } else { 0 };
+    for tick in 0..=ticks {
+        let u = if ticks == 0 { 0.5 } else { f64::from(tick) / f64::from(ticks) };
         let y = bar.bottom() - u as f32 * bar.height();
         let text = widgets::short(low + u * (high - low));
         outlined(ui, pos2(bar.left() - 7.0, y), Align2::RIGHT_CENTER, &text, theme::number_font());

@@ -65,7 +65,9 @@ fn speed(ui: &mut Ui, session: &mut Session) {
 /// Which frame this is, in words, from right to left.
 fn position(ui: &mut Ui, session: &Session) {
     let index = session.playback.index();
-    let text = format!("{} / {}", index + 1, session.playback.count());
+    // Counted from 0, as `--frames` does.
+    let last = (session.playback.count() - 1).to_string();
+    let text = format!("{index:>width$} / {last}", width = last.len());
     ui.label(RichText::new(text).font(theme::number_font()).color(theme::TEXT));
     let here = session.frame().filter(|(frame, _)| *frame == index);
     if let Some(time) = here.and_then(|(_, frame)| frame.metadata.time) {
@@ -112,6 +114,7 @@ fn track(ui: &mut Ui, session: &mut Session) {
         return;
     }
     let rect = Rect::from_center_size(outer.center(), vec2(outer.width() - 12.0, TRACK_HEIGHT));
+    widgets::Areas::mark(ui, "timeline", rect);
     let track = Track { rect, count };
     if let Some(cursor) = response.interact_pointer_pos()
         && (response.dragged() || response.clicked())
@@ -127,7 +130,7 @@ fn track(ui: &mut Ui, session: &mut Session) {
     if let Some(cursor) = response.hover_pos() {
         let index = track.at(cursor);
         let name = session.run().map_or("", |run| run.name(index)).to_owned();
-        response.on_hover_text_at_pointer(format!("{}  {name}", index + 1));
+        response.on_hover_text_at_pointer(format!("{index}  {name}"));
     }
 }
 

@@ -73,6 +73,7 @@ impl TransferEditor {
             pos2(inner.left(), outer.bottom() - STRIP_HEIGHT),
             pos2(inner.right(), outer.bottom()),
         );
+        widgets::Areas::mark(ui, "transfer", inner);
         self.edit(ui, &response, &axes, points);
         let under = response.hover_pos().and_then(|cursor| axes.hit(points, cursor));
         let painter = ui.painter_at(outer);
