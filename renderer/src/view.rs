@@ -107,11 +107,11 @@ impl Default for TransferView {
             reference_length: None,
             // Blue over grey to red in linear light, with the middle thin so that both ends show.
             points: vec![
-                point(0.0, [0.03, 0.10, 0.53], 0.20),
-                point(0.25, [0.18, 0.40, 0.80], 0.06),
-                point(0.5, [0.70, 0.70, 0.68], 0.03),
-                point(0.75, [0.85, 0.35, 0.15], 0.08),
-                point(1.0, [0.60, 0.02, 0.03], 0.30),
+                point(0.0, [0.03, 0.12, 0.60], 0.45),
+                point(0.25, [0.16, 0.45, 0.85], 0.25),
+                point(0.5, [0.75, 0.75, 0.70], 0.18),
+                point(0.75, [0.90, 0.36, 0.12], 0.30),
+                point(1.0, [0.65, 0.03, 0.03], 0.60),
             ],
         }
     }

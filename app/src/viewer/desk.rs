@@ -83,6 +83,9 @@ impl Desk {
             areas: Areas::default(),
         };
         desk.open(&options.sequence);
+        if options.playing {
+            desk.session.toggle_playing();
+        }
         desk
     }
 
