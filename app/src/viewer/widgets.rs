@@ -77,6 +77,8 @@ pub fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> 
 
 /// A label, and a value that stands at the right edge.
 pub fn fact(ui: &mut Ui, label: &str, value: impl Into<String>) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    ui.spacing_mut().interact_size.y = 20.0;
     ui.horizontal(|ui| {
         ui.label(RichText::new(label).color(theme::MUTED));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -142,7 +144,7 @@ pub fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place) % 3 == 0 {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
             text.push('\u{202f}');
         }
         text.push(digit);

@@ -56,10 +56,12 @@ fn range(ui: &mut Ui, session: &mut Session) {
     let Some([mut low, mut high]) = in_effect else { return };
     let scale = (high - low).abs();
     widgets::row(ui, "Range", |ui| {
-        let width = (ui.available_width() - 22.0) / 2.0;
+        const BETWEEN: f32 = 16.0;
+        let gaps = 2.0 * ui.spacing().item_spacing.x;
+        let width = (ui.available_width() - BETWEEN - gaps) / 2.0;
         let size = egui::vec2(width, ui.spacing().interact_size.y);
         let changed = ui.add_sized(size, widgets::number(&mut low, scale)).changed();
-        ui.label("to");
+        ui.add_sized([BETWEEN, size.y], egui::Label::new("to"));
         let changed = ui.add_sized(size, widgets::number(&mut high, scale)).changed() || changed;
         if changed && low.is_finite() && high.is_finite() {
             session.range_source = RangeSource::Fixed;
