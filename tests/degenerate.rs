@@ -167,6 +167,17 @@ fn quantities_at_the_edge_of_their_numbers() {
 }
 
 #[test]
+fn outliers_of_the_quantity_do_not_drown_their_neighbours() {
+    let mut scene = scenes::plain(41, 33, 21);
+    scene.name = "outliers far beyond the range".to_owned();
+    scene.view.quantity.range = Some([0.0, 1.0]);
+    for (index, particle) in scene.particles.iter_mut().enumerate().filter(|(index, _)| index % 7 == 0) {
+        particle.quantity = if index % 2 == 0 { 1e12 } else { -1e12 };
+    }
+    assert_alike([scene]);
+}
+
+#[test]
 fn a_range_of_no_width_is_a_threshold() {
     let mut scene = scenes::plain(36, 33, 21);
     scene.name = "range of no width in the middle of the quantity".to_owned();
