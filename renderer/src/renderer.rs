@@ -102,7 +102,8 @@ impl Renderer {
             last: None,
             gpu,
         };
-        renderer.gpu.check()?;
+        // Waits, since a device that is gone makes pipelines without a word.
+        renderer.gpu.wait()?;
         Ok(renderer)
     }
 
