@@ -122,7 +122,9 @@ impl Job {
     /// Gives the view what must not change from frame to frame, or the film would flicker: a camera
     /// that has the whole run in view, and a reference length.
     fn settle(&mut self) -> anyhow::Result<()> {
-        if self.view.camera.is_some() && self.view.transfer.reference_length.is_some() {
+        if self.view.camera.is_some_and(|camera| camera.is_settled())
+            && self.view.transfer.reference_length.is_some()
+        {
             return Ok(());
         }
         let mut survey = Survey::default();

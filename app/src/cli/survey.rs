@@ -29,7 +29,10 @@ impl Survey {
     /// [`Scene::new`](renderer::Scene::new) does for one frame.
     pub fn settle(&self, view: &mut View) {
         let aspect = f64::from(view.image.width) / f64::from(view.image.height);
-        view.camera.get_or_insert_with(|| Camera::overview(self.bounds, self.largest_radius, aspect));
+        view.camera = Some(match view.camera {
+            Some(camera) => camera.settled(self.bounds, self.largest_radius, aspect),
+            None => Camera::overview(self.bounds, self.largest_radius, aspect),
+        });
         if let Some(bounds) = self.bounds {
             let length = (bounds.diagonal() + 2.0 * self.largest_radius) / 30.0;
             view.transfer.reference_length.get_or_insert(length);

@@ -126,7 +126,7 @@ impl Session {
     /// Takes over the settings of a view that is valid.
     pub fn adopt(&mut self, view: View) {
         match (&mut self.camera, &view.camera) {
-            (Some(camera), Some(given)) => camera.adopt(given),
+            (Some(camera), Some(given)) if given.is_settled() => camera.adopt(given),
             _ => self.camera = None,
         }
         let ranged = view.quantity.range.is_some();
@@ -343,7 +343,7 @@ impl Session {
             None => {
                 let mut camera = OrbitCamera::overview(facts.bounds, margin, aspect);
                 if let Some(view) = self.view.camera.take() {
-                    camera.adopt(&view);
+                    camera.adopt(&view.settled(facts.bounds, margin, aspect));
                 }
                 self.camera = Some(camera);
             }
