@@ -151,6 +151,7 @@ impl Renderer {
                 Ok(size) => {
                     picture.stats.pairs += size.pairs;
                     picture.stats.cells += size.cells;
+                    picture.stats.cells_by_class.full += size.cells;
                     self.cast_tile(&job, &tile, &mut tile_progress, &mut picture)?;
                     cells_done += tile.cells();
                 }
