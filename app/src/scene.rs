@@ -164,7 +164,7 @@ pub fn rejected_warning(frame: &Frame, particles: &ParticleSet, quantity: &Quant
 }
 
 /// A scalar over the particles of a frame: a field, a component of one, or the length of its vectors.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Selection<'a> {
     field: Option<&'a Field>,
     component: Option<usize>,
@@ -202,21 +202,14 @@ impl<'a> Selection<'a> {
         }
     }
 
-    /// Concentration, velocity, density, pressure or temperature, then any field that is not a
-    /// number, a mass or a length of the method: the first whose values differ, or else the first;
-    /// the constant ½ where there is none. (At t = 0 many runs are at rest.)
+    /// Concentration, velocity, density, pressure or temperature, the first that there is; else the
+    /// first field that is not a number, a mass or a length of the method; else the constant ½. By
+    /// names alone, so that all frames of a run show the same.
     pub fn default_of(frame: &'a Frame) -> Selection<'a> {
-        let preferred = PREFERRED.iter().filter_map(|name| frame.field(name));
+        let preferred = PREFERRED.iter().find_map(|name| frame.field(name));
         let telling = |field: &&Field| !LAST.contains(&names::canonical(&field.name).as_str());
-        let candidates = preferred.chain(frame.fields().iter().filter(telling));
-        let selections = candidates.map(|field| Selection { field: Some(field), component: None });
-        let first = selections.clone().next().unwrap_or_default();
-        selections.into_iter().find(|selection| selection.varies(frame.len())).unwrap_or(first)
-    }
-
-    /// Whether two of the frame's `particles` have different values.
-    fn varies(&self, particles: usize) -> bool {
-        particles > 0 && (1..particles).any(|row| self.value(row) != self.value(0))
+        let field = preferred.or_else(|| frame.fields().iter().find(telling));
+        Selection { field, component: None }
     }
 
     /// The value of one particle, not necessarily finite.
