@@ -3,6 +3,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
+use crate::io_error::describe;
 use anyhow::{Context, anyhow, bail};
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Rgba32FImage};
 
@@ -59,7 +60,7 @@ pub fn write(path: &Path, pixels: &Pixels, background: Option<[f32; 3]>) -> anyh
 /// A file that cannot be read, or is neither; the path comes first.
 pub fn read(path: &Path) -> anyhow::Result<Pixels> {
     let name = || path.display().to_string();
-    let bytes = std::fs::read(path).with_context(name)?;
+    let bytes = std::fs::read(path).map_err(|error| anyhow!(describe(&error))).with_context(name)?;
     // The content tells the format, whatever the name says.
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().with_context(name)?;
     let linear = match reader.format() {
@@ -96,11 +97,6 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
         Ok(())
     };
     write().map_err(|error| anyhow!("{}: cannot be written: {}", path.display(), describe(&error)))
-}
-
-/// What the system says, without the name of the temporary file.
-fn describe(error: &std::io::Error) -> String {
-    error.kind().to_string()
 }
 
 fn png(pixels: &Pixels, background: Option<[f32; 3]>) -> anyhow::Result<Vec<u8>> {

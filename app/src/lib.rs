@@ -3,5 +3,6 @@
 pub mod cli;
 pub mod frames;
 pub mod image_file;
+mod io_error;
 pub mod scene;
 pub mod viewer;

@@ -55,6 +55,8 @@ pub struct Support<'a> {
     /// Factor of the field, or the radius itself where there is no field.
     factor: f64,
     field: Option<&'a Column>,
+    /// Particle radii that must be valid, although one radius for all is taken.
+    checked: Option<&'a Column>,
 }
 
 impl<'a> Support<'a> {
@@ -64,11 +66,17 @@ impl<'a> Support<'a> {
     /// median spacing. Particles all in one place get 1.
     ///
     /// A frame-wide radius that is not positive and finite is passed over; one of a single particle
-    /// is kept, for [`ParticleSet`] to leave that particle out.
+    /// is kept, for [`ParticleSet`] to leave that particle out. A particle whose `radius` is invalid is
+    /// left out where a radius of the frame is taken, too.
     pub fn new(frame: &'a Frame, view: Option<f64>) -> Support<'a> {
         let positive = |radius: &f64| radius.is_finite() && *radius > 0.0;
-        let one = |source, factor| Support { source, factor, field: None };
-        let each = |source, factor, field: &'a Field| Support { source, factor, field: Some(&field.column) };
+        let one = |source, factor| Support { source, factor, field: None, checked: None };
+        let each = |source, factor, field: &'a Field| Support {
+            source,
+            factor,
+            field: Some(&field.column),
+            checked: None,
+        };
         let scalar = |name| frame.field(name).filter(|field| field.column.components() == 1);
 
         if let Some(radius) = view {
@@ -80,7 +88,8 @@ impl<'a> Support<'a> {
         }
         // Before a field: what `demo:radial` calls radius is no radius of its particles.
         if let Some(radius) = frame.metadata.support_radius.filter(positive) {
-            return one(SupportSource::Metadata, radius);
+            let checked = scalar("radius").map(|field| &field.column);
+            return Support { checked, ..one(SupportSource::Metadata, radius) };
         }
         if let Some(field) = scalar("radius") {
             return each(SupportSource::RadiusField, 4.0, field);
@@ -96,7 +105,12 @@ impl<'a> Support<'a> {
 
     /// Support radius of one particle, as given: it may be negative or not finite.
     pub fn radius(&self, row: usize) -> f64 {
-        self.field.map_or(self.factor, |field| self.factor * field.get(row, 0))
+        let checked = self.checked.map_or(1.0, |radii| radii.get(row, 0));
+        match self.field {
+            _ if !(checked > 0.0 && checked.is_finite()) => checked,
+            Some(field) => self.factor * field.get(row, 0),
+            None => self.factor,
+        }
     }
 }
 
@@ -108,16 +122,21 @@ pub fn particles(frame: &Frame, support_radius: Option<f64>) -> Result<ParticleS
     if frame.len() > ParticleSet::MAX_PARTICLES {
         return Err(SceneError::TooManyParticles(frame.len()));
     }
-    let support = Support::new(frame, support_radius);
+    let (support, volume) = (Support::new(frame, support_radius), volumes(frame));
+    Ok(ParticleSet::new(frame.len(), |row| RawParticle {
+        position: frame.position(row),
+        support_radius: support.radius(row),
+        volume: volume(row),
+    }))
+}
+
+/// The volume of each particle, m/ρ or 1.
+fn volumes(frame: &Frame) -> impl Fn(usize) -> f64 + Sync {
     let scalar =
         |name| frame.field(name).map(|field| &field.column).filter(|column| column.components() == 1);
     let density = scalar("density").filter(|column| all_positive(column));
     let mass = scalar("mass").filter(|_| density.is_some());
-    Ok(ParticleSet::new(frame.len(), |row| RawParticle {
-        position: frame.position(row),
-        support_radius: support.radius(row),
-        volume: mass.map_or(1.0, |m| m.get(row, 0)) / density.map_or(1.0, |rho| rho.get(row, 0)),
-    }))
+    move |row| mass.map_or(1.0, |m| m.get(row, 0)) / density.map_or(1.0, |rho| rho.get(row, 0))
 }
 
 /// The quantity of the kept particles: the one that the view names, or [`Selection::default_of`] the frame.
@@ -184,7 +203,8 @@ impl<'a> Selection<'a> {
     }
 
     /// Concentration, velocity, density, pressure or temperature, the first that there is; else the
-    /// first field that is not a number, a mass or a length of the method; else the constant ½.
+    /// first field that is not a number, a mass or a length of the method; else the constant ½. By
+    /// names alone, so that all frames of a run show the same.
     pub fn default_of(frame: &'a Frame) -> Selection<'a> {
         let preferred = PREFERRED.iter().find_map(|name| frame.field(name));
         let telling = |field: &&Field| !LAST.contains(&names::canonical(&field.name).as_str());
@@ -205,28 +225,27 @@ impl<'a> Selection<'a> {
     /// for the constant.
     pub fn name(&self) -> Option<String> {
         let name = names::canonical(&self.field?.name);
-        Some(match self.component {
-            Some(component @ 0..3) => format!("{name}.{}", ["x", "y", "z"][component]),
-            Some(component) => format!("{name}.{component}"),
-            None => name,
-        })
+        Some(self.component.map_or(name.clone(), |c| format!("{name}.{}", component_name(c))))
     }
 }
 
 /// Names that select something in `frame`, for a menu: each field, and the components of vectors.
 pub fn quantity_names(frame: &Frame) -> Vec<String> {
-    let names = |field: &Field| {
-        let components = match field.column.components() {
-            1 => 0,
-            n => n,
-        };
-        let field = Some(field);
-        let selections = std::iter::once(Selection { field, component: None })
-            .chain((0..components).map(|c| Selection { field, component: Some(c) }))
-            .filter_map(|selection| selection.name());
-        selections.collect::<Vec<_>>()
-    };
-    frame.fields().iter().flat_map(names).collect()
+    frame.fields().iter().flat_map(|field| names_in(frame, field)).collect()
+}
+
+fn names_in(frame: &Frame, field: &Field) -> Vec<String> {
+    let canonical = names::canonical(&field.name);
+    // Of two fields with one canonical name, one answers to its own name only.
+    let answers = frame.field(&canonical).is_some_and(|found| std::ptr::eq(found, field));
+    let name = if answers { canonical } else { field.name.trim().to_owned() };
+    let components = if field.column.components() > 1 { field.column.components() } else { 0 };
+    let component = |c: usize| format!("{name}.{}", component_name(c));
+    std::iter::once(name.clone()).chain((0..components).map(component)).collect()
+}
+
+fn component_name(component: usize) -> String {
+    ["x", "y", "z"].get(component).map_or_else(|| component.to_string(), |&name| name.to_owned())
 }
 
 fn list(frame: &Frame) -> String {
@@ -240,3 +259,7 @@ fn all_positive(column: &Column) -> bool {
         value.is_finite() && value > 0.0
     })
 }
+
+#[cfg(test)]
+#[path = "scene_tests.rs"]
+mod tests;

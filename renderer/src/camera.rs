@@ -29,8 +29,9 @@ pub const BUNDLE_SIDE: u32 = 8;
 const NEAREST_FIT: f64 = 1e-4;
 
 impl Camera {
-    /// The camera of a valid `view`; absent near and far are fitted around the particles in front of it.
-    pub fn new(view: &CameraView, particles: &ParticleSet, quantity: &Quantity) -> Camera {
+    /// The camera of a valid and settled `view`; absent near and far are fitted around the particles
+    /// in front of it.
+    pub(crate) fn new(view: &CameraView, particles: &ParticleSet, quantity: &Quantity) -> Camera {
         let forward = (view.target - view.eye).normalize();
         let right = forward.cross(view.up).normalize();
         let up = right.cross(forward);
@@ -48,25 +49,41 @@ impl Camera {
 
     /// A camera that has all of `bounds`, grown by `margin`, in view: from the front right, a little above.
     pub fn overview(bounds: Option<Bounds>, margin: f64, aspect: f64) -> CameraView {
-        let (target, radius) =
-            bounds.map_or((DVec3::ZERO, 1.0), |b| (b.centre(), 0.5 * b.diagonal() + margin));
-        let fov_y_degrees: f64 = 35.0;
-        let tan = (fov_y_degrees.to_radians() / 2.0).tan() * aspect.min(1.0);
-        let distance = radius / tan.atan().sin();
-        let direction = DVec3::new(0.55, 0.40, 0.75).normalize();
-        CameraView {
-            eye: target + distance * direction,
-            target,
-            up: DVec3::Y,
-            fov_y_degrees,
-            near: None,
-            far: None,
-        }
+        let open = CameraView::OPEN;
+        let view =
+            CameraView { eye: open, target: open, up: DVec3::Y, fov_y_degrees: 35.0, near: None, far: None };
+        view.settled(bounds, margin, aspect)
     }
 
     /// View depth of a point of the world.
     pub fn depth(&self, point: DVec3) -> f64 {
         (point - self.eye).dot(self.forward)
+    }
+}
+
+/// Where the overview looks from.
+const OVERVIEW: DVec3 = DVec3::new(0.55, 0.40, 0.75);
+
+impl CameraView {
+    /// The same camera with eye and target settled where they are left open: looking at the middle of
+    /// `bounds`, and from so far away that `bounds`, grown by `margin`, are in view.
+    pub fn settled(mut self, bounds: Option<Bounds>, margin: f64, aspect: f64) -> CameraView {
+        let (centre, radius) =
+            bounds.map_or((DVec3::ZERO, 1.0), |b| (b.centre(), 0.5 * b.diagonal() + margin));
+        let tan = (self.fov_y_degrees.to_radians() / 2.0).tan() * aspect.min(1.0);
+        let away = radius / tan.atan().sin() * OVERVIEW.normalize();
+        if self.target == CameraView::OPEN {
+            // An eye in the very middle still has to look somewhere.
+            self.target = if self.eye == centre { centre - away } else { centre };
+        }
+        if self.eye == CameraView::OPEN {
+            self.eye = self.target + away;
+        }
+        let forward = (self.target - self.eye).normalize();
+        if forward.cross(self.up).length() < 1e-9 * self.up.length() {
+            self.up = forward.any_orthonormal_vector();
+        }
+        self
     }
 }
 
@@ -108,4 +125,41 @@ fn fit_depths(eye: DVec3, forward: DVec3, particles: &ParticleSet, quantity: &Qu
         return [1.0, 2.0];
     };
     [nearest.max(farthest * NEAREST_FIT), farthest]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::View;
+
+    fn settled(camera: &str) -> CameraView {
+        let view = View::from_json(&format!("{{\"camera\": {camera}}}")).unwrap();
+        view.validate().unwrap();
+        let bounds = Bounds { min: DVec3::new(1.0, 2.0, 3.0), max: DVec3::new(3.0, 4.0, 5.0) };
+        view.camera.unwrap().settled(Some(bounds), 0.1, 1.0)
+    }
+
+    #[test]
+    fn what_a_camera_leaves_open_is_settled_by_the_run() {
+        let centre = DVec3::new(2.0, 3.0, 4.0);
+        assert_eq!(settled("{}").target, centre);
+        assert_eq!(settled(r#"{"eye": [9, 9, 9]}"#).target, centre);
+        assert_eq!(settled(r#"{"eye": [9, 9, 9]}"#).eye, DVec3::splat(9.0));
+        let from_afar = settled(r#"{"target": [0, 0, 0], "fov_y_degrees": 10}"#);
+        assert_eq!(from_afar.target, DVec3::ZERO);
+        assert!(from_afar.eye.length() > 10.0);
+        // The middle of the run, and straight down: still a camera.
+        for odd in [r#"{"eye": [2, 3, 4]}"#, r#"{"eye": [2, 9, 4], "up": [0, 1, 0]}"#] {
+            let camera = settled(odd);
+            let forward = camera.target - camera.eye;
+            assert!(forward.cross(camera.up).length() > 1e-3 * forward.length(), "{odd}: {camera:?}");
+        }
+    }
+
+    #[test]
+    fn a_settled_camera_stays_as_it_is() {
+        let given = r#"{"eye": [0, 0, 5], "target": [0, 1, 0], "up": [1, 0, 0], "near": 1, "far": 9}"#;
+        let view = View::from_json(&format!("{{\"camera\": {given}}}")).unwrap().camera.unwrap();
+        assert_eq!(view.settled(None, 0.0, 1.0), view);
+    }
 }

@@ -22,12 +22,21 @@ pub enum RenderError {
     DeviceLost(String),
     #[error("out of device memory while rendering: choose a smaller picture or fewer particles ({0})")]
     OutOfMemory(String),
-    #[error("{what} needs {needed} bytes in one buffer, but the adapter allows {limit}")]
+    #[error("{what} need {needed} bytes in one buffer, but the adapter allows {limit}")]
     BufferLimit { what: &'static str, needed: u64, limit: u64 },
-    #[error(
-        "{what} need {needed} bytes, more than {memory} bytes of device memory allow: choose a larger picture, a closer camera or more memory"
-    )]
-    TooLarge { what: &'static str, needed: u64, memory: u64 },
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
     #[error("the device refused the work: {0}")]
     Device(String),
+}
+
+/// A single cell of the grid needs more than the device can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "one cell of 8 × 8 pixels has {needed} {what}, and the device holds {limit}: allow more device memory, choose a larger picture or a closer camera"
+)]
+pub struct TooLarge {
+    pub what: &'static str,
+    pub needed: u64,
+    pub limit: u64,
 }

@@ -22,8 +22,9 @@
 //!
 //! # Numbers
 //!
-//! Positions reach the device as two f32 each, in a unit close to the support radius, and are
-//! subtracted from the eye before anything else happens to them. Distances inside a cell are taken
+//! Positions reach the device as two f32 each, in a unit close to the support radius. Before anything
+//! else happens to them, they are taken relative to a pivot on the camera's axis: amid the particles
+//! for a long lens, close to the eye for a camera among them. Distances inside a cell are taken
 //! relative to the cell. So neither the unit of the run, nor its place in the world, nor a camera far
 //! away or deep inside costs precision.
 
@@ -46,7 +47,7 @@ mod transfer;
 mod view;
 
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
-pub use error::{GpuError, RenderError};
+pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};
 pub use inspect::GridCell;
 pub use kernel::Kernel;

@@ -70,9 +70,8 @@ pub struct ParticleSet {
     pub(crate) low: Vec<[f32; 4]>,
 }
 
-/// Weights V_j/h_j³ are kept within this distance of 1, so that no product with a kernel value
-/// overflows or vanishes in f32.
-const WEIGHT_LIMIT: f64 = 1e12;
+/// Cube roots of weights V_j/h_j³ are kept within this distance of 1.
+const ROOT_LIMIT: f64 = 1e10;
 
 impl ParticleSet {
     /// The most particles that one set may hold.
@@ -102,9 +101,11 @@ impl ParticleSet {
                 let high = position.as_vec3();
                 let low = (position - high.as_dvec3()).as_vec3();
                 let radius = (raw.support_radius / unit) as f32;
-                let weight = (weight_of(&raw) - middle_weight).exp();
-                let weight = weight.clamp(1.0 / WEIGHT_LIMIT, WEIGHT_LIMIT) as f32;
-                ([high.x, high.y, high.z, radius], [low.x, low.y, low.z, weight])
+                // The root: the projection scales it by h/h' before it takes the cube, which might
+                // leave the range of f32 on the way.
+                let root = ((weight_of(&raw) - middle_weight) / 3.0).exp();
+                let root = root.clamp(1.0 / ROOT_LIMIT, ROOT_LIMIT) as f32;
+                ([high.x, high.y, high.z, radius], [low.x, low.y, low.z, root])
             })
             .unzip();
         ParticleSet {
@@ -221,11 +222,11 @@ impl Quantity {
     /// Stands for a quantity that is not finite: the shaders leave such a particle out.
     pub(crate) const REJECTED: f32 = 3.0e38;
     /// Normalised values are kept within this distance of zero, so that sums stay finite.
-    const LIMIT: f64 = 1e18;
+    const LIMIT: f64 = 1e15;
 
     /// Takes the quantity of each source row of `particles` from `value(row)`. `range` is u = 0 and
-    /// u = 1; the finite minimum and maximum where it is `None`. A range of no width maps its own
-    /// value to u = ½, what lies below to 0 and above to 1.
+    /// u = 1; the finite minimum and maximum where it is `None`. A range of no width is a threshold:
+    /// its own value is u = ½, interpolated values below it are 0 and those above it 1.
     pub fn new(
         particles: &ParticleSet,
         range: Option<[f64; 2]>,
@@ -234,13 +235,17 @@ impl Quantity {
         let value = |index: usize| value(particles.source_row(index));
         let [low, high] = range.unwrap_or_else(|| finite_range(particles.len(), value));
         // Halves first: high − low of two huge values of opposite sign may overflow.
-        let width = high * 0.5 - low * 0.5;
-        let normalise = |q: f64| match width > 0.0 {
-            true => (q * 0.5 - low * 0.5) / width,
-            false if q < low => -Self::LIMIT,
-            false if q > low => Self::LIMIT,
-            false => 0.5,
+        let half_width = high * 0.5 - low * 0.5;
+        // A threshold is a range so narrow that nothing but the value itself falls inside it.
+        let farthest = || {
+            let [least, most] = finite_range(particles.len(), value);
+            (most * 0.5 - low * 0.5).abs().max((least * 0.5 - low * 0.5).abs())
         };
+        let (scale, offset) = match half_width > 0.0 {
+            true => (half_width, 0.0),
+            false => ((farthest() / Self::LIMIT).max(f64::MIN_POSITIVE), 0.5),
+        };
+        let normalise = |q: f64| (q * 0.5 - low * 0.5) / scale + offset;
         let values: Vec<f32> = (0..particles.len())
             .into_par_iter()
             .map(|index| match value(index) {

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use crate::camera::{BUNDLE_SIDE, Camera, Slices};
-use crate::error::RenderError;
+use crate::error::{RenderError, TooLarge};
 use crate::gpu::{Buffer, Gpu, Timing};
 use crate::kernel::Kernel;
 use crate::pace::Pace;
@@ -14,9 +14,9 @@ use crate::scene::Scene;
 use crate::stages::cast::Cast;
 use crate::stages::grid::Grid;
 use crate::stages::project::Project;
-use crate::stages::shared::{FrameUniform, ParticleStore, TileUniform, TransferTables};
+use crate::stages::shared::{FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth};
 use crate::stats::{Milliseconds, Stats};
-use crate::tiles::{Job, TooLarge};
+use crate::tiles::Job;
 use crate::transfer::TransferFunction;
 
 /// Asks between submissions whether to go on; gets the share done, 0 to 1.
@@ -102,7 +102,8 @@ impl Renderer {
             last: None,
             gpu,
         };
-        renderer.gpu.check()?;
+        // Waits, since a device that is gone makes pipelines without a word.
+        renderer.gpu.wait()?;
         Ok(renderer)
     }
 
@@ -150,6 +151,7 @@ impl Renderer {
                 Ok(size) => {
                     picture.stats.pairs += size.pairs;
                     picture.stats.cells += size.cells;
+                    picture.stats.cells_by_class.full += size.cells;
                     self.cast_tile(&job, &tile, &mut tile_progress, &mut picture)?;
                     cells_done += tile.cells();
                 }
@@ -173,7 +175,7 @@ impl Renderer {
         }
         self.transfer.write(&self.gpu, &scene.transfer)?;
         self.frame.write(&self.gpu, &[FrameUniform::new(scene, &slices, self.store.count())])?;
-        self.cast.write_slices(&self.gpu, &slices, scene.particles.unit())?;
+        self.cast.write_slices(&self.gpu, &slices, pivot_depth(&scene.camera), scene.particles.unit())?;
         Ok(Job { scene, slices, geometry, limits, resident, only_tile: false })
     }
 
@@ -181,11 +183,7 @@ impl Renderer {
     pub(crate) fn halves(&self, tile: &Tile, too_large: TooLarge) -> Result<[Tile; 2], RenderError> {
         match tile.split() {
             Some([first, second]) => Ok([second, first]),
-            None => Err(RenderError::TooLarge {
-                what: too_large.what,
-                needed: too_large.bytes,
-                memory: self.gpu.memory,
-            }),
+            None => Err(RenderError::TooLarge(too_large)),
         }
     }
 

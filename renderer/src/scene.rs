@@ -35,7 +35,11 @@ impl Scene {
         view.validate()?;
         let aspect = f64::from(view.image.width) / f64::from(view.image.height);
         let margin = particles.support_radii()[1];
-        let camera = view.camera.unwrap_or_else(|| Camera::overview(particles.bounds(), margin, aspect));
+        let bounds = particles.bounds();
+        let camera = match view.camera {
+            Some(camera) => camera.settled(bounds, margin, aspect),
+            None => Camera::overview(bounds, margin, aspect),
+        };
         let camera = Camera::new(&camera, &particles, &quantity);
         let reference_length =
             view.transfer.reference_length.unwrap_or_else(|| default_reference_length(&particles));

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use crate::camera::Slices;
-use crate::error::RenderError;
+use crate::error::{RenderError, TooLarge};
 use crate::picture::Picture;
 use crate::plan::{Tile, TileLimits};
 use crate::renderer::{Geometry, GridSize, Progress, Renderer};
@@ -22,12 +22,6 @@ pub(crate) struct Job<'a> {
     pub resident: bool,
     /// The picture is a single tile, whose grid serves the next picture too.
     pub only_tile: bool,
-}
-
-/// The device cannot hold what a tile needs: `what`, in so many `bytes`.
-pub(crate) struct TooLarge {
-    pub what: &'static str,
-    pub bytes: u64,
 }
 
 /// First guess of the references that one particle needs; an overflow tells the true number.
@@ -81,7 +75,8 @@ impl Renderer {
         let chosen = selection::touching(job.scene, &job.slices, tile);
         let count = chosen.len() as u64;
         if count > job.limits.particles {
-            return Ok(Some(TooLarge { what: "the particles of one cell", bytes: count * 16 }));
+            let limit = job.limits.particles;
+            return Ok(Some(TooLarge { what: "particles", needed: count, limit }));
         }
         let (particles, quantity) = (&job.scene.particles, &job.scene.quantity);
         self.store.upload_some(&self.gpu, particles, quantity, &chosen)?;
@@ -122,7 +117,7 @@ impl Renderer {
                 return Ok(Ok(GridSize { pairs: needed, cells: u64::from(totals[1]) }));
             }
             if needed > limit {
-                return Ok(Err(TooLarge { what: "the particle references of one cell", bytes: needed * 4 }));
+                return Ok(Err(TooLarge { what: "references to particles", needed, limit }));
             }
             // Some room to spare: the next camera may need a little more.
             self.grid.pairs.reserve(&self.gpu, (needed + needed / 8).min(limit))?;

@@ -24,7 +24,11 @@ pub struct View {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraView {
+    /// [`CameraView::OPEN`] where it is left open: away from the target, so that the whole run is in view.
+    #[serde(default = "open", skip_serializing_if = "is_open")]
     pub eye: DVec3,
+    /// [`CameraView::OPEN`] where it is left open: the middle of the run.
+    #[serde(default = "open", skip_serializing_if = "is_open")]
     pub target: DVec3,
     #[serde(default = "default_up")]
     pub up: DVec3,
@@ -37,6 +41,14 @@ pub struct CameraView {
     /// View depth where the slices end; fitted to the particles where it is absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub far: Option<f64>,
+}
+
+fn open() -> DVec3 {
+    CameraView::OPEN
+}
+
+fn is_open(point: &DVec3) -> bool {
+    *point == CameraView::OPEN
 }
 
 fn default_up() -> DVec3 {
@@ -107,11 +119,11 @@ impl Default for TransferView {
             reference_length: None,
             // Blue over grey to red in linear light, with the middle thin so that both ends show.
             points: vec![
-                point(0.0, [0.03, 0.10, 0.53], 0.20),
-                point(0.25, [0.18, 0.40, 0.80], 0.06),
-                point(0.5, [0.70, 0.70, 0.68], 0.03),
-                point(0.75, [0.85, 0.35, 0.15], 0.08),
-                point(1.0, [0.60, 0.02, 0.03], 0.30),
+                point(0.0, [0.03, 0.12, 0.60], 0.45),
+                point(0.25, [0.16, 0.45, 0.85], 0.25),
+                point(0.5, [0.75, 0.75, 0.70], 0.18),
+                point(0.75, [0.90, 0.36, 0.12], 0.30),
+                point(1.0, [0.65, 0.03, 0.03], 0.60),
             ],
         }
     }
@@ -193,18 +205,30 @@ impl View {
 }
 
 impl CameraView {
+    /// A point that is to be settled once the run is known: one where no camera can stand. (Not a
+    /// NaN, which would make a view unequal to itself.)
+    pub const OPEN: DVec3 = DVec3::MAX;
+
+    /// Whether eye and target are both given.
+    pub fn is_settled(&self) -> bool {
+        !is_open(&self.eye) && !is_open(&self.target)
+    }
+
     fn validate(&self) -> Result<(), ViewError> {
-        check(self.eye.is_finite(), "camera.eye", || "is not finite".into())?;
-        check(self.target.is_finite(), "camera.target", || "is not finite".into())?;
+        for (key, point) in [("camera.eye", self.eye), ("camera.target", self.target)] {
+            check(is_open(&point) || point.is_finite(), key, || "is not finite".into())?;
+        }
         check(self.up.is_finite(), "camera.up", || "is not finite".into())?;
-        let forward = (self.target - self.eye).try_normalize();
-        let Some(forward) = forward else {
-            return Err(ViewError::new("camera.target", "is the same point as camera.eye"));
-        };
         let up = self.up.try_normalize().unwrap_or(DVec3::ZERO);
-        check(forward.cross(up).length() > 1e-9, "camera.up", || {
-            "is zero or parallel to the viewing direction".into()
-        })?;
+        check(up != DVec3::ZERO, "camera.up", || "is zero".into())?;
+        if self.is_settled() {
+            let Some(forward) = (self.target - self.eye).try_normalize() else {
+                return Err(ViewError::new("camera.target", "is the same point as camera.eye"));
+            };
+            check(forward.cross(up).length() > 1e-9, "camera.up", || {
+                "is parallel to the viewing direction".into()
+            })?;
+        }
         check(self.fov_y_degrees > 0.0 && self.fov_y_degrees < 180.0, "camera.fov_y_degrees", || {
             format!("{} is not between 0 and 180", self.fov_y_degrees)
         })?;

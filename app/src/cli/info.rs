@@ -166,7 +166,9 @@ impl std::fmt::Display for Info {
         if let Some(spacing) = self.spacing {
             writeln!(f, "  spacing         {} (median to the nearest neighbour)", Number(spacing))?;
         }
-        self.support_radius.write(f)?;
+        if self.particles > 0 {
+            self.support_radius.write(f)?;
+        }
         for (index, field) in self.fields.iter().enumerate() {
             let title = if index == 0 { "fields" } else { "" };
             let shown =
@@ -228,6 +230,8 @@ impl std::fmt::Display for Number {
 fn digits(number: f64, count: usize) -> String {
     // Rounded first: what is left prints without a tail.
     let rounded: f64 = format!("{number:.*e}", count - 1).parse().unwrap_or(number);
+    // Nobody needs to know of a zero's sign.
+    let rounded = rounded + 0.0;
     match rounded.abs() {
         0.0 | 1e-4..1e7 => format!("{rounded}"),
         _ => format!("{rounded:e}"),

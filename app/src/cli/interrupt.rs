@@ -7,6 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[derive(Clone)]
 pub struct Interrupt(Arc<AtomicBool>);
 
+/// The error of work that Ctrl-C ended.
+pub const INTERRUPTED: &str = "sphcast: interrupted";
+
 /// What a shell expects of a program that Ctrl-C ended.
 const STATUS: i32 = 130;
 
@@ -23,7 +26,7 @@ impl Interrupt {
         };
         if let Err(error) = ctrlc::set_handler(handler) {
             // Without it Ctrl-C still ends the program, only less tidily.
-            log::warn!("Ctrl-C is not listened to: {error}");
+            eprintln!("warning: Ctrl-C is not listened to: {error}");
         }
         Interrupt(asked)
     }
@@ -34,6 +37,6 @@ impl Interrupt {
 
     /// An error once the user asked.
     pub fn check(&self) -> anyhow::Result<()> {
-        if self.asked() { Err(anyhow::anyhow!("sphcast: interrupted")) } else { Ok(()) }
+        if self.asked() { Err(anyhow::anyhow!(INTERRUPTED)) } else { Ok(()) }
     }
 }

@@ -151,6 +151,8 @@ fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
         sequence,
         view,
         fixed_size: arguments.view.size.is_some() || arguments.view.view.is_some(),
+        // Who opens no run wants to see what this is.
+        playing: arguments.files.is_empty(),
         gpu: arguments.device.options(),
         log_events: arguments.log_events,
     })

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::WrongArguments;
 use crate::image_file::Format;
+use crate::io_error::describe;
 
 /// What `--out` names.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +60,7 @@ impl Output {
             return Ok(());
         };
         std::fs::create_dir_all(folder)
-            .map_err(|error| anyhow::anyhow!("{}: cannot be made: {error}", folder.display()))
+            .map_err(|error| anyhow::anyhow!("{}: cannot be made: {}", folder.display(), describe(&error)))
     }
 }
 

@@ -8,7 +8,7 @@ use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use renderer::{Gpu, Picture, RenderError, Renderer, Scene, Stats, View};
 
-use super::interrupt::Interrupt;
+use super::interrupt::{INTERRUPTED, Interrupt};
 use super::output::Output;
 use super::survey::Survey;
 use super::timed::Timed;
@@ -98,6 +98,9 @@ impl Job {
         let count = self.stream.len();
         if count > 1 {
             self.settle()?;
+            if self.view.quantity.range.is_none() {
+                self.say("note: colours span the values of each frame; a view with quantity.range keeps them steady");
+            }
         }
         let mut outcome = Outcome { stats: Vec::new(), failed: Vec::new() };
         for index in 0..count {
@@ -119,7 +122,9 @@ impl Job {
     /// Gives the view what must not change from frame to frame, or the film would flicker: a camera
     /// that has the whole run in view, and a reference length.
     fn settle(&mut self) -> anyhow::Result<()> {
-        if self.view.camera.is_some() && self.view.transfer.reference_length.is_some() {
+        if self.view.camera.is_some_and(|camera| camera.is_settled())
+            && self.view.transfer.reference_length.is_some()
+        {
             return Ok(());
         }
         let mut survey = Survey::default();
@@ -150,9 +155,8 @@ impl Job {
             if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let picture = match self.renderer.render(&scene, &mut progress) {
-            Err(error @ (RenderError::Cancelled | RenderError::DeviceLost(_))) => {
-                bail!(Fatal(format!("{name}: {error}")));
-            }
+            Err(RenderError::Cancelled) => bail!(Fatal(INTERRUPTED.to_owned())),
+            Err(error @ RenderError::DeviceLost(_)) => bail!(Fatal(format!("{name}: {error}"))),
             result => result.with_context(|| name.to_owned())?,
         };
         let Picture { width, height, pixels, mut stats } = picture;

@@ -29,10 +29,39 @@ impl Survey {
     /// [`Scene::new`](renderer::Scene::new) does for one frame.
     pub fn settle(&self, view: &mut View) {
         let aspect = f64::from(view.image.width) / f64::from(view.image.height);
-        view.camera.get_or_insert_with(|| Camera::overview(self.bounds, self.largest_radius, aspect));
+        view.camera = Some(match view.camera {
+            Some(camera) => camera.settled(self.bounds, self.largest_radius, aspect),
+            None => Camera::overview(self.bounds, self.largest_radius, aspect),
+        });
         if let Some(bounds) = self.bounds {
             let length = (bounds.diagonal() + 2.0 * self.largest_radius) / 30.0;
             view.transfer.reference_length.get_or_insert(length);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::{Column, Metadata};
+
+    #[test]
+    fn the_camera_and_the_reference_length_are_those_of_the_whole_run() {
+        let frame = |x: f64| {
+            let positions = Column::new(3, vec![x, 0.0, 0.0, x + 1.0, 0.0, 0.0]).unwrap();
+            Frame::new(positions, Vec::new(), Metadata::default()).unwrap()
+        };
+        let mut view = View::default();
+        view.particles.support_radius = Some(0.5);
+        let mut survey = Survey::default();
+        survey.add(&frame(0.0), &view);
+        survey.add(&frame(4.0), &view);
+        survey.settle(&mut view);
+        assert_eq!(view.camera.unwrap().target, glam::DVec3::new(2.5, 0.0, 0.0));
+        assert_eq!(view.transfer.reference_length, Some(6.0 / 30.0));
+        let settled = view.clone();
+        survey.add(&frame(100.0), &view);
+        survey.settle(&mut view);
+        assert_eq!(view, settled, "what the view says itself stays");
     }
 }

@@ -6,6 +6,7 @@ use anyhow::{Context, anyhow};
 use renderer::{Kernel, View};
 
 use crate::frames::{Sequence, demo};
+use crate::io_error::describe;
 
 /// What defines a picture: a file, and flags that go before it.
 #[derive(clap::Args)]
@@ -64,7 +65,7 @@ impl ViewArguments {
 
 fn read(path: &Path) -> anyhow::Result<View> {
     let name = || path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(name)?;
+    let text = std::fs::read_to_string(path).map_err(|error| anyhow!(describe(&error))).with_context(name)?;
     // A byte order mark is no part of JSON, but editors write one.
     let view = View::from_json(text.trim_start_matches('\u{feff}')).map_err(|error| {
         // `<what>: <where>`, as for every other file.

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::generate::Generated;
 use super::stream::FrameSource;
 use super::{Frame, demo, natural, readers};
+use crate::io_error::describe;
 
 /// The frames of a run, in the order in which they are shown.
 #[derive(Clone, Debug, Default)]
@@ -219,7 +220,8 @@ impl FrameSource for Source {
 }
 
 /// Endings of the files that there are readers for, in lower case. A `.json` is a sidecar.
-const ENDINGS: [&str; 11] = ["vtk", "vtu", "vtp", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5"];
+const ENDINGS: [&str; 12] =
+    ["vtk", "vtu", "vtp", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5", "hdf"];
 
 fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
@@ -247,13 +249,4 @@ fn matches(pattern: &str) -> Result<Vec<PathBuf>, String> {
     let readable: Vec<PathBuf> = files.iter().filter(|path| is_readable(path)).cloned().collect();
     let found = if readable.is_empty() { files } else { readable };
     if found.is_empty() { Err("matches no file".into()) } else { Ok(found) }
-}
-
-/// What the system says, without its error number.
-fn describe(error: &std::io::Error) -> String {
-    match error.kind() {
-        std::io::ErrorKind::NotFound => "no such file or directory".into(),
-        std::io::ErrorKind::PermissionDenied => "permission denied".into(),
-        _ => error.to_string(),
-    }
 }

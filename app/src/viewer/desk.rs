@@ -27,7 +27,7 @@ use super::{Options, Wake};
 /// What was done on another thread.
 enum Done {
     Found(Result<Sequence, String>),
-    ViewRead(PathBuf, anyhow::Result<View>),
+    ViewRead(PathBuf, anyhow::Result<Box<View>>),
     ViewSaved(PathBuf, anyhow::Result<()>),
     Counted(Analysis),
 }
@@ -83,6 +83,9 @@ impl Desk {
             areas: Areas::default(),
         };
         desk.open(&options.sequence);
+        if options.playing {
+            desk.session.toggle_playing();
+        }
         desk
     }
 
@@ -195,7 +198,7 @@ impl Desk {
                     self.session.messages.error(text);
                 }
                 Done::ViewRead(path, Ok(view)) => {
-                    self.session.adopt(view);
+                    self.session.adopt(*view);
                     self.session.messages.note(format!("View loaded from {}", path.display()));
                     self.session.log(format!("loaded {}", path.display()));
                 }
@@ -276,7 +279,7 @@ impl Desk {
     fn load_view(&mut self, path: PathBuf) {
         self.work(move || {
             let view = read_view(&path);
-            Done::ViewRead(path, view)
+            Done::ViewRead(path, view.map(Box::new))
         });
     }
 

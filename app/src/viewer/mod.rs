@@ -40,6 +40,8 @@ pub struct Options {
     pub view: View,
     /// Whether the size of the image was asked for; otherwise it is that of the window.
     pub fixed_size: bool,
+    /// Whether the run starts to play at once.
+    pub playing: bool,
     pub gpu: GpuOptions,
     /// Whether to write one line on standard error for each thing that happens.
     pub log_events: bool,

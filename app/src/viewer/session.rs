@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use renderer::{Stats, View};
+use renderer::{Bounds, Stats, View};
 
 use crate::frames::{Frame, FrameState};
 
@@ -60,6 +60,8 @@ pub struct Session {
     told: BTreeSet<usize>,
     /// The frame whose picture failed, so that playing goes on.
     without_picture: Option<usize>,
+    /// Box around the particles of all frames pictured so far, and their largest support radius.
+    extent: (Option<Bounds>, f64),
     moving_until: Option<Instant>,
     asked: Option<Job>,
     /// Room for the picture in the window, in physical pixels.
@@ -88,6 +90,7 @@ impl Session {
             seen: HashMap::new(),
             told: BTreeSet::new(),
             without_picture: None,
+            extent: (None, 0.0),
             moving_until: None,
             asked: None,
             room: [0, 0],
@@ -110,6 +113,7 @@ impl Session {
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
         self.seen.clear();
         self.told.clear();
+        self.extent = (None, 0.0);
         if !first {
             // The settings of another run's place and scale.
             (self.camera, self.view.camera) = (None, None);
@@ -126,7 +130,7 @@ impl Session {
     /// Takes over the settings of a view that is valid.
     pub fn adopt(&mut self, view: View) {
         match (&mut self.camera, &view.camera) {
-            (Some(camera), Some(given)) => camera.adopt(given),
+            (Some(camera), Some(given)) if given.is_settled() => camera.adopt(given),
             _ => self.camera = None,
         }
         let ranged = view.quantity.range.is_some();
@@ -337,13 +341,18 @@ impl Session {
         self.without_picture = None;
         let facts = &shown.facts;
         let aspect = f64::from(shown.full[0]) / f64::from(shown.full[1].max(1));
-        let margin = facts.support_radii[1];
+        let bounds = match (self.extent.0, facts.bounds) {
+            (Some(seen), Some(new)) => Some(seen.union(&new)),
+            (seen, new) => seen.or(new),
+        };
+        let margin = self.extent.1.max(facts.support_radii[1]);
+        self.extent = (bounds, margin);
         match &mut self.camera {
-            Some(camera) => camera.set_scene(facts.bounds, margin),
+            Some(camera) => camera.set_scene(bounds, margin),
             None => {
-                let mut camera = OrbitCamera::overview(facts.bounds, margin, aspect);
+                let mut camera = OrbitCamera::overview(bounds, margin, aspect);
                 if let Some(view) = self.view.camera.take() {
-                    camera.adopt(&view);
+                    camera.adopt(&view.settled(bounds, margin, aspect));
                 }
                 self.camera = Some(camera);
             }
@@ -393,12 +402,12 @@ impl Session {
         self.complete_view().quantity.range.or_else(extremes)
     }
 
-    /// Puts the whole frame in view.
+    /// Puts the whole run, as far as it was seen, in view.
     pub fn reset_camera(&mut self) {
         let [width, height] = self.fitted();
         let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
-        if let (Some(camera), Some(picture)) = (&mut self.camera, &self.picture) {
-            camera.reset(picture.facts.bounds, picture.facts.support_radii[1], aspect);
+        if let (Some(camera), (bounds @ Some(_), margin)) = (&mut self.camera, self.extent) {
+            camera.reset(bounds, margin, aspect);
         }
     }
 

@@ -46,7 +46,8 @@ fn no_display(error: impl std::fmt::Display) -> anyhow::Error {
 pub fn run(options: Options) -> anyhow::Result<()> {
     let events = EventLoop::<Event>::with_user_event().build();
     let events = events.map_err(no_display)?;
-    let mut app = App { state: State::Waiting(Some(options)), proxy: events.create_proxy(), failure: None };
+    let mut app =
+        App { state: State::Waiting(Some(Box::new(options))), proxy: events.create_proxy(), failure: None };
     events.run_app(&mut app).map_err(no_display)?;
     app.failure.map_or(Ok(()), Err)
 }
@@ -60,7 +61,7 @@ struct App {
 
 enum State {
     /// Until the system says that windows may be opened.
-    Waiting(Option<Options>),
+    Waiting(Option<Box<Options>>),
     Open(Box<Open>),
 }
 
@@ -88,7 +89,7 @@ impl ApplicationHandler<Event> for App {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         let State::Waiting(options) = &mut self.state else { return };
         let Some(options) = options.take() else { return };
-        match Open::new(events, options, self.proxy.clone()) {
+        match Open::new(events, *options, self.proxy.clone()) {
             Ok(open) => self.state = State::Open(Box::new(open)),
             Err(error) => {
                 self.failure = Some(error);

@@ -93,6 +93,12 @@ impl Gpu {
         self.info.device_type == wgpu::DeviceType::Cpu
     }
 
+    /// Gives the device up: what is rendered from now on ends as it does when the driver takes the
+    /// device away, with [`RenderError::DeviceLost`]. For tests of what follows from that.
+    pub fn lose(&self) {
+        self.device.destroy();
+    }
+
     /// The most bytes that one shader binding may see.
     pub(crate) fn binding_limit(&self) -> u64 {
         self.limits.max_storage_buffer_binding_size.min(self.limits.max_buffer_size)
@@ -107,18 +113,26 @@ impl Gpu {
 
     /// Reports what failed since the last check.
     pub(crate) fn check(&self) -> Result<(), RenderError> {
+        if lock(&self.failures).any() {
+            // Work on a lost device fails in many ways; the word of its loss comes with a poll.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
         let mut failures = lock(&self.failures);
         if let Some(reason) = &failures.lost {
             return Err(RenderError::DeviceLost(reason.clone()));
         }
-        if let Some(reason) = failures.out_of_memory.take() {
-            failures.other = None;
-            return Err(RenderError::OutOfMemory(reason));
+        let Failures { out_of_memory, other, .. } = std::mem::take(&mut *failures);
+        match (out_of_memory, other) {
+            (Some(reason), _) => Err(RenderError::OutOfMemory(reason)),
+            (None, Some(reason)) => Err(RenderError::Device(reason)),
+            (None, None) => Ok(()),
         }
-        match failures.other.take() {
-            Some(reason) => Err(RenderError::Device(reason)),
-            None => Ok(()),
-        }
+    }
+}
+
+impl Failures {
+    fn any(&self) -> bool {
+        self.lost.is_some() || self.out_of_memory.is_some() || self.other.is_some()
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Cast {
     /// One a kernel.
     pipelines: Vec<Pipeline>,
     chunk: Buffer,
-    /// Depth of the middle of each layer of cells, in device units.
+    /// Depth of the middle of each layer of cells, from the eye and from the pivot, in device units.
     layer_depth: Buffer,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
@@ -56,16 +56,24 @@ impl Cast {
         Cast {
             pipelines: Kernel::ALL.iter().map(pipeline).collect(),
             chunk: Buffer::uniform::<Chunk>(gpu, "cast chunk"),
-            layer_depth: Buffer::storage(gpu, "layer depths", 4),
+            layer_depth: Buffer::storage(gpu, "layer depths", 8),
             pixels: Buffer::storage(gpu, "pixels", 16),
             counters: Buffer::storage(gpu, "evaluation counters", 16),
         }
     }
 
-    /// Prepares the depths of the layers, in units of `unit`.
-    pub(crate) fn write_slices(&mut self, gpu: &Gpu, slices: &Slices, unit: f64) -> Result<(), RenderError> {
-        let depths: Vec<f32> =
-            (0..slices.layers()).map(|layer| (slices.depth((16 * layer + 8) as f64) / unit) as f32).collect();
+    /// Prepares the depths of the layers, from the eye and from `pivot_depth`, in units of `unit`.
+    pub(crate) fn write_slices(
+        &mut self,
+        gpu: &Gpu,
+        slices: &Slices,
+        pivot_depth: f64,
+        unit: f64,
+    ) -> Result<(), RenderError> {
+        let middle = |layer: u64| slices.depth((16 * layer + 8) as f64);
+        let depths: Vec<[f32; 2]> = (0..slices.layers())
+            .map(|layer| [middle(layer), middle(layer) - pivot_depth].map(|depth| (depth / unit) as f32))
+            .collect();
         self.layer_depth.write(gpu, &depths)
     }
 

@@ -20,8 +20,8 @@ struct Chunk {
 // Where the references of each cell end; those of the first begin at 0.
 @group(0) @binding(6) var<storage, read> cells: array<u32>;
 @group(0) @binding(7) var<storage, read> pairs: array<u32>;
-// Depth of the middle of each layer of cells.
-@group(0) @binding(8) var<storage, read> layer_depth: array<f32>;
+// Depth of the middle of each layer of cells, from the eye and from the pivot.
+@group(0) @binding(8) var<storage, read> layer_depth: array<vec2<f32>>;
 @group(0) @binding(9) var<storage, read> buckets: array<u32>;
 // Premultiplied linear RGB and transparency, 64 pixels a bundle.
 @group(0) @binding(10) var<storage, read_write> pixels: array<vec4<f32>>;
@@ -59,14 +59,45 @@ fn place_in_bundle(lane: u32) -> vec2<u32> {
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
 // `reference`, a value of the cell: where all particles have the same one, the sum is exact.
-fn load_particle(place: u32, lane: u32, middle: vec3<f32>, reference: f32) {
+// `middle`: of the cell, relative to the pivot.
+fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
     let particle = pairs[place];
     let ball = projected[particle];
-    let inverse_radius = middle.z / ball.w;
-    balls[lane] = vec4((ball.xyz - middle) / middle.z, inverse_radius * inverse_radius);
+    let inverse_radius = depth / ball.w;
+    balls[lane] = vec4((ball.xyz - middle) / depth, inverse_radius * inverse_radius);
     let quantity = quantities[particle];
     let weight = select(weights[particle], 0.0, quantity > REJECTED);
     charges[lane] = vec2(weight, select(weight * (quantity - reference), 0.0, quantity > REJECTED));
+}
+
+// A ray's way through a ball: along it, 1 − ρ² is a parabola.
+struct Arc {
+    // Depth of the point closest to the ball's centre, and 1 − ρ² there: not positive for a miss.
+    closest: f32,
+    top: f32,
+    // By how much 1 − ρ² falls with the squared depth from there.
+    bend: f32,
+    // Depth from there to the surface of the ball.
+    reach: f32,
+}
+
+fn arc_through(ball: vec4<f32>, from_axis: vec2<f32>, direction: vec3<f32>, direction_squared: f32) -> Arc {
+    let offset = ball.xyz - vec3(from_axis, 0.0);
+    let closest = dot(offset, direction) / direction_squared;
+    let across = offset - closest * direction;
+    let top = 1.0 - dot(across, across) * ball.w;
+    let bend = direction_squared * ball.w;
+    return Arc(closest, top, bend, sqrt(max(top, 0.0) / bend));
+}
+
+// Whether any of four samples, in ascending depths, may be inside the ball.
+fn meets(depths: vec4<f32>, arc: Arc) -> bool {
+    return depths.x <= arc.closest + arc.reach && depths.w >= arc.closest - arc.reach;
+}
+
+fn kernel_on(depths: vec4<f32>, arc: Arc) -> vec4<f32> {
+    let t = depths - arc.closest;
+    return kernel(max(arc.top - arc.bend * t * t, vec4(0.0)));
 }
 
 // One more sample behind the others: I += T·(1 − t)·c, T *= t (contract, section 1). `opacity` is
@@ -105,12 +136,13 @@ fn cast_cell(
     from_axis: vec2<f32>,
     lane: u32,
 ) -> vec4<f32> {
-    let depth = layer_depth[tile.first_layer + layer];
-    let middle = depth * vec3(axis, 1.0);
+    let depths = layer_depth[tile.first_layer + layer];
+    let depth = depths.x;
+    let middle = vec3(depth * axis, depths.y);
     let direction = vec3(slope, 1.0);
     let direction_squared = dot(direction, direction);
-    let any_quantity = quantities[pairs[first]];
-    let reference = select(any_quantity, 0.0, any_quantity > REJECTED);
+    // Some particle's, but never an outlier's, against which the others would vanish.
+    let reference = clamp(quantities[pairs[first]], 0.0, 1.0);
     // Sums over particles at the ray's 16 samples. Four vectors rather than an array: an indexed
     // array would live in memory.
     var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
@@ -121,52 +153,39 @@ fn cast_cell(
 
     for (var base = first; base < end; base += LANES) {
         if base + lane < end {
-            load_particle(base + lane, lane, middle, reference);
+            load_particle(base + lane, lane, middle, depth, reference);
         }
         workgroupBarrier();
         let loaded = min(LANES, end - base);
         for (var i = 0u; i < loaded; i += 1u) {
-            let ball = balls[i];
-            // Along the ray, 1 − ρ² is a parabola around the point closest to the particle.
-            let offset = ball.xyz - vec3(from_axis, 0.0);
-            let closest = dot(offset, direction) / direction_squared;
-            let across = offset - closest * direction;
-            let top = 1.0 - dot(across, across) * ball.w;
-            if top <= 0.0 {
+            let arc = arc_through(balls[i], from_axis, direction, direction_squared);
+            if arc.top <= 0.0 {
                 continue;
             }
-            let bend = direction_squared * ball.w;
-            let reach = sqrt(top / bend);
-            let near = closest - reach;
-            let far = closest + reach;
             let charge = charges[i];
-            if at[0].x <= far && at[0].w >= near {
-                let t = at[0] - closest;
-                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+            if meets(at[0], arc) {
+                let k = kernel_on(at[0], arc);
                 w0 += charge.x * k;
                 q0 += charge.y * k;
                 done += 4u;
                 if COUNT_INSIDE { inside += positive(k); }
             }
-            if at[1].x <= far && at[1].w >= near {
-                let t = at[1] - closest;
-                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+            if meets(at[1], arc) {
+                let k = kernel_on(at[1], arc);
                 w1 += charge.x * k;
                 q1 += charge.y * k;
                 done += 4u;
                 if COUNT_INSIDE { inside += positive(k); }
             }
-            if at[2].x <= far && at[2].w >= near {
-                let t = at[2] - closest;
-                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+            if meets(at[2], arc) {
+                let k = kernel_on(at[2], arc);
                 w2 += charge.x * k;
                 q2 += charge.y * k;
                 done += 4u;
                 if COUNT_INSIDE { inside += positive(k); }
             }
-            if at[3].x <= far && at[3].w >= near {
-                let t = at[3] - closest;
-                let k = kernel(max(top - bend * t * t, vec4(0.0)));
+            if meets(at[3], arc) {
+                let k = kernel_on(at[3], arc);
                 w3 += charge.x * k;
                 q3 += charge.y * k;
                 done += 4u;

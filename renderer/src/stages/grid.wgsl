@@ -7,6 +7,7 @@
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var<uniform> tile: Tile;
+// Position relative to the pivot, and support radius.
 @group(0) @binding(2) var<storage, read> projected: array<vec4<f32>>;
 // For `count`: references of each cell. For `scatter`: place of the cell's next reference.
 @group(0) @binding(3) var<storage, read_write> cells: array<atomic<u32>>;
@@ -55,9 +56,10 @@ fn columns_of(ball: vec4<f32>) -> vec4<u32> {
     if !(ball.w > 0.0) {
         return vec4(0u);
     }
-    let x = pixel_range(slope_range(ball.x, ball.z, ball.w), frame.size.x);
+    let z = ball.z + frame.pivot_depth;
+    let x = pixel_range(slope_range(ball.x, z, ball.w), frame.size.x);
     // Rows run downwards.
-    let y = pixel_range(slope_range(-ball.y, ball.z, ball.w), frame.size.y);
+    let y = pixel_range(slope_range(-ball.y, z, ball.w), frame.size.y);
     if x.x > x.y || y.x > y.y {
         return vec4(0u);
     }
@@ -91,10 +93,12 @@ fn depth_range(ball: vec4<f32>, bundle: vec2<u32>) -> vec2<f32> {
     let bottom_right = ray_slope(frame, last);
     let low = vec2(top_left.x, bottom_right.y);
     let high = vec2(bottom_right.x, top_left.y);
-    let ahead = vec4(low * ball.z - ball.xy, low);
-    let behind = vec4(ball.xy - high * ball.z, -high);
+    let z = ball.z + frame.pivot_depth;
+    let ahead = vec4(low * z - ball.xy, low);
+    let behind = vec4(ball.xy - high * z, -high);
 
-    let radius = ball.w * 1.0001 + abs(ball.z) * 1e-6;
+    // Wider than the rounding of the position, and of the slopes times z.
+    let radius = ball.w * 1.0001 + (abs(ball.x) + abs(ball.y) + abs(ball.z)) * 1e-6;
     let squared = radius * radius;
     var enter = -radius;
     var leave = radius;
@@ -112,6 +116,12 @@ fn depth_range(ball: vec4<f32>, bundle: vec2<u32>) -> vec2<f32> {
     return vec2(enter, leave);
 }
 
+// ln(1 + x) for x ≥ 0, with full relative precision for small x.
+fn log_one_plus(x: vec2<f32>) -> vec2<f32> {
+    let series = x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 3.0 - x * (1.0 / 4.0 - x * (1.0 / 5.0)))));
+    return select(log(1.0 + x), series, x < vec2(0.05));
+}
+
 // First layer, and layer after the last, of the tile in which a bundle's samples may be inside the
 // ball. A cell counts from its first sample to its last, ½ and 15½ slices in: samples of every
 // coarser level lie between them.
@@ -120,8 +130,8 @@ fn layers_of(ball: vec4<f32>, bundle: vec2<u32>) -> vec2<i32> {
     if depths.x > depths.y {
         return vec2(0);
     }
-    let z = clamp(ball.z + depths, vec2(frame.near), vec2(frame.far));
-    let slices = log(z / frame.near) / frame.log_step;
+    let z = clamp(ball.z + depths, vec2(frame.near_offset), vec2(frame.far_offset));
+    let slices = log_one_plus((z - frame.near_offset) / frame.near) / frame.log_step;
     let slack = SLACK + 1e-6 * slices.y;
     let first = i32(ceil((slices.x - slack - (CELL_SLICES - 0.5)) / CELL_SLICES));
     let last = i32(floor((slices.y + slack - 0.5) / CELL_SLICES));

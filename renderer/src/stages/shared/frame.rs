@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
-use crate::camera::{CELL_SLICES, Slices};
+use crate::camera::{CELL_SLICES, Camera, Slices};
 use crate::plan::Tile;
 use crate::scene::Scene;
 
@@ -23,13 +23,17 @@ pub(crate) struct FrameUniform {
     pub near: f32,
     pub forward: [f32; 3],
     pub far: f32,
-    pub eye_high: [f32; 3],
+    pub pivot_high: [f32; 3],
     pub log_step: f32,
-    pub eye_low: [f32; 3],
+    pub pivot_low: [f32; 3],
     pub radius_floor: f32,
     pub size: [u32; 2],
     pub particle_count: u32,
     pub path_scale: f32,
+    pub pivot_depth: f32,
+    pub near_offset: f32,
+    pub far_offset: f32,
+    pub padding: f32,
     pub sample_offset: [f32; CELL_SLICES as usize],
     pub slab_depth: [f32; CELL_SLICES as usize],
 }
@@ -41,9 +45,10 @@ impl FrameUniform {
         let camera = &scene.camera;
         let particles = &scene.particles;
         let unit = particles.unit();
-        let eye = particles.to_device(camera.eye);
-        let eye_high = eye.as_vec3();
-        let eye_low = (eye - eye_high.as_dvec3()).as_vec3();
+        let pivot_depth = pivot_depth(camera);
+        let pivot = particles.to_device(camera.eye + pivot_depth * camera.forward);
+        let pivot_high = pivot.as_vec3();
+        let pivot_low = (pivot - pivot_high.as_dvec3()).as_vec3();
         let step = slices.log_step;
         // Slices of a cell lie symmetric about its middle, 8 slices in.
         let from_middle = |slice: f64| slice - f64::from(CELL_SLICES) / 2.0;
@@ -54,19 +59,30 @@ impl FrameUniform {
             near: (camera.near / unit) as f32,
             forward: single(camera.forward),
             far: (camera.far / unit) as f32,
-            eye_high: eye_high.to_array(),
+            pivot_high: pivot_high.to_array(),
             log_step: step as f32,
-            eye_low: eye_low.to_array(),
+            pivot_low: pivot_low.to_array(),
             radius_floor: radius_floor(scene, slices) as f32,
             size: [scene.width, scene.height],
             particle_count: particle_count as u32,
             path_scale: (unit / scene.reference_length) as f32,
+            pivot_depth: (pivot_depth / unit) as f32,
+            near_offset: ((camera.near - pivot_depth) / unit) as f32,
+            far_offset: ((camera.far - pivot_depth) / unit) as f32,
+            padding: 0.0,
             sample_offset: std::array::from_fn(|k| (from_middle(k as f64 + 0.5) * step).exp_m1() as f32),
             slab_depth: std::array::from_fn(|k| {
                 ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
             }),
         }
     }
+}
+
+/// Depth of the point that positions in view space are relative to: amid a view volume that is
+/// shallow for its distance, where depths differ little and f32 would round them all alike; never so
+/// far from near that a particle close to the eye would lose by it.
+pub(crate) fn pivot_depth(camera: &Camera) -> f64 {
+    (camera.near + 0.5 * (camera.far - camera.near)).min(2.0 * camera.near)
 }
 
 /// Smallest support radius that cannot fall between samples, in units of view depth.
@@ -126,13 +142,17 @@ mod tests {
             near,
             forward,
             far,
-            eye_high,
+            pivot_high,
             log_step,
-            eye_low,
+            pivot_low,
             radius_floor,
             size,
             particle_count,
             path_scale,
+            pivot_depth,
+            near_offset,
+            far_offset,
+            padding,
             sample_offset,
             slab_depth
         );

@@ -8,11 +8,12 @@ struct Frame {
     near: f32,
     forward: vec3<f32>,
     far: f32,
-    // The eye is the sum of the two: neither subtraction below rounds where it matters.
-    eye_high: vec3<f32>,
+    // The pivot, a point on the camera's axis, is the sum of the two. Positions in view space are
+    // relative to it: for a long lens it lies among the particles, far from the eye.
+    pivot_high: vec3<f32>,
     // ln(far/near)/N.
     log_step: f32,
-    eye_low: vec3<f32>,
+    pivot_low: vec3<f32>,
     // Smallest support radius, in units of view depth, that cannot fall between samples.
     radius_floor: f32,
     // Pixels.
@@ -20,6 +21,11 @@ struct Frame {
     particle_count: u32,
     // Device length over reference length.
     path_scale: f32,
+    // Depth of the pivot; near and far relative to it.
+    pivot_depth: f32,
+    near_offset: f32,
+    far_offset: f32,
+    padding: f32,
     // Depth of the cell's 16 samples relative to its middle, in units of the middle's depth.
     sample_offset: array<vec4<f32>, 4>,
     // Depth of the cell's 16 slabs, in units of the depth of the cell's middle.

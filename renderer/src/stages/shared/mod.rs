@@ -4,7 +4,7 @@ mod frame;
 mod store;
 mod transfer;
 
-pub(crate) use frame::{FrameUniform, TileUniform, pitch, radius_floor};
+pub(crate) use frame::{FrameUniform, TileUniform, pitch, pivot_depth, radius_floor};
 pub(crate) use store::ParticleStore;
 pub(crate) use transfer::TransferTables;
 

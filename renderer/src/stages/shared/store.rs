@@ -10,7 +10,7 @@ use crate::particles::{ParticleSet, Quantity};
 pub(crate) struct ParticleStore {
     /// High part of the position, and support radius.
     pub high: Buffer,
-    /// Low part of the position, and weight V/h³.
+    /// Low part of the position, and cube root of the weight V/h³.
     pub low: Buffer,
     pub quantities: Buffer,
     /// Position in view space, and support radius: written by the projection.

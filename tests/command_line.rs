@@ -1,0 +1,257 @@
+//! The program as its users call it: arguments in; files, messages and exit status out.
+
+#[path = "support/files.rs"]
+mod files;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+
+use files::write_vtk;
+
+/// The program. Cargo builds binaries for the tests of their own package only, and this package has
+/// none: so the first test asks cargo for it, which is quick where it is built already.
+fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut build = Command::new(cargo);
+        build.args(["build", "-p", "sphcast", "--bin", "sphcast", "--message-format", "json"]);
+        if !cfg!(debug_assertions) {
+            build.arg("--release");
+        }
+        build.current_dir(env!("CARGO_MANIFEST_DIR")).stderr(Stdio::inherit());
+        let output = build.output().expect("cargo runs");
+        assert!(output.status.success(), "the program does not build");
+        let messages = String::from_utf8(output.stdout).unwrap();
+        let executable = messages.lines().find_map(|line| {
+            let message: serde_json::Value = serde_json::from_str(line).ok()?;
+            message["executable"].as_str().map(PathBuf::from)
+        });
+        executable.expect("cargo names the executable")
+    })
+}
+
+struct Outcome {
+    status: i32,
+    out: String,
+    err: String,
+}
+
+impl Outcome {
+    /// The one error line, without its `error: `.
+    fn error(&self) -> &str {
+        let errors: Vec<&str> = self.err.lines().filter_map(|line| line.strip_prefix("error: ")).collect();
+        let [error] = errors[..] else { panic!("not one error line: {}", self.err) };
+        error
+    }
+}
+
+fn sphcast(folder: &Path, arguments: &[&str]) -> Outcome {
+    let mut command = Command::new(program());
+    // A Wayland library complains on standard error where there is no such folder.
+    command.args(arguments).current_dir(folder).env("XDG_RUNTIME_DIR", folder);
+    let output = command.output().unwrap();
+    Outcome {
+        status: output.status.code().expect("not killed by a signal"),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// A folder with `run/frame_1.vtk` to `_3`, the second of them cut short, and `one.vtk`.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("run")).unwrap();
+    for number in 1..=3 {
+        write_vtk(&folder.path().join(format!("run/frame_{number}.vtk")), 20, true);
+    }
+    let second = folder.path().join("run/frame_2.vtk");
+    let whole = fs::read(&second).unwrap();
+    fs::write(second, &whole[..whole.len() / 2]).unwrap();
+    write_vtk(&folder.path().join("one.vtk"), 20, true);
+    folder
+}
+
+/// All files below `folder`, sorted.
+fn files_in(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let folder = folder();
+    for command in [&["--help"][..], &["render", "--help"], &["info", "--help"], &["compare", "--help"]] {
+        let help = sphcast(folder.path(), command);
+        assert_eq!(help.status, 0);
+        assert!(help.out.contains("Example") && help.out.contains("  sphcast "), "{command:?}: {}", help.out);
+    }
+    assert!(sphcast(folder.path(), &["--version"]).out.starts_with("sphcast "));
+}
+
+#[test]
+fn wrong_arguments_give_status_2() {
+    let folder = folder();
+    for arguments in [
+        &["render", "one.vtk"][..],
+        &["render", "--out", "a.png"],
+        &["render", "one.vtk", "--out", "a.png", "--size", "0x5"],
+        &["render", "one.vtk", "--out", "a.png", "--tolerance", "nan"],
+        &["render", "one.vtk", "--out", "a.png", "--relaxation", "2"],
+        &["render", "one.vtk", "--out", "a.png", "--kernel", "gauss"],
+        &["render", "one.vtk", "--out", "a.png", "--support-radius", "-1"],
+        &["render", "one.vtk", "--out", "a.png", "--frames", "5..2"],
+        &["render", "one.vtk", "--out", "a.png", "--frames", "0..2"],
+        &["render", "one.vtk", "--out", "a.jpg"],
+        &["render", "run", "--out", "a.png"],
+        &["info"],
+        &["compare", "a.png"],
+        &["--no-such-flag"],
+    ] {
+        let outcome = sphcast(folder.path(), arguments);
+        assert_eq!(outcome.status, 2, "{arguments:?}: {}", outcome.err);
+        assert!(outcome.err.starts_with("error: "), "{arguments:?}: {}", outcome.err);
+    }
+    assert_eq!(files_in(folder.path()), ["one.vtk", "run"]);
+}
+
+#[test]
+fn failures_give_status_1_and_one_line_that_names_the_file() {
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("typo.json", "{\n  \"kamera\": {}\n}");
+    write("range.json", r#"{"camera": {"eye": [0, 0, 0], "target": [0, 0, 0]}}"#);
+    write("broken.json", "{\n");
+    write("a.png", "no picture");
+    let cases: [(&[&str], &str); 9] = [
+        (&["info", "no.vtk"], "no.vtk: no such file or directory"),
+        (&["info", "demo:cube:5"], "demo:cube:5: there is no demo `cube`"),
+        (&["info", "run/frame_2.vtk"], "run/frame_2.vtk: "),
+        (&["info", "*.bgeo"], "*.bgeo: matches no file"),
+        (&["render", "one.vtk", "--out", "o.png", "--view", "no.json"], "no.json: "),
+        (
+            &["render", "one.vtk", "--out", "o.png", "--view", "typo.json"],
+            "typo.json: unknown field `kamera`",
+        ),
+        (&["render", "one.vtk", "--out", "o.png", "--view", "range.json"], "range.json: camera.target: "),
+        (&["render", "one.vtk", "--out", "o.png", "--view", "broken.json"], "broken.json: "),
+        (&["compare", "a.png", "a.png"], "a.png: "),
+    ];
+    for (arguments, expected) in cases {
+        let outcome = sphcast(folder.path(), arguments);
+        assert_eq!(outcome.status, 1, "{arguments:?}: {}", outcome.err);
+        assert!(outcome.error().starts_with(expected), "{arguments:?}: {}", outcome.err);
+        assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    }
+    let typo = sphcast(folder.path(), &["render", "one.vtk", "--out", "o.png", "--view", "typo.json"]);
+    assert!(typo.error().ends_with(": line 2, column 10"), "{}", typo.err);
+}
+
+#[test]
+fn info_tells_what_is_in_a_frame() {
+    let folder = folder();
+    let text = sphcast(folder.path(), &["info", "one.vtk"]);
+    assert_eq!(text.status, 0, "{}", text.err);
+    for part in [
+        "particles       20",
+        "spacing         0.1 ",
+        "support radius  0.2 (estimated",
+        "concentration 0 to 0.95",
+    ] {
+        assert!(text.out.contains(part), "{part} in {}", text.out);
+    }
+    let json = sphcast(folder.path(), &["info", "one.vtk", "--json"]);
+    let info: serde_json::Value = serde_json::from_str(&json.out).unwrap();
+    assert_eq!(info["particles"], 20);
+    assert_eq!(info["fields"][0]["name"], "concentration");
+    assert_eq!(info["fields"][0]["non_finite"], 0);
+}
+
+#[test]
+fn info_goes_on_after_a_bad_frame() {
+    let folder = folder();
+    let run = sphcast(folder.path(), &["info", "run", "--json"]);
+    assert_eq!(run.status, 1);
+    let infos: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!(infos.as_array().unwrap().len(), 2);
+    assert!(run.err.starts_with("warning: run/frame_2.vtk: "), "{}", run.err);
+    assert!(run.error().starts_with("run/frame_2.vtk: "));
+    let one = sphcast(folder.path(), &["info", "run", "--frames", "2..3", "--json"]);
+    assert_eq!(one.status, 0, "{}", one.err);
+    assert!(one.out.contains("frame_3.vtk"));
+}
+
+#[test]
+fn a_frame_becomes_a_picture_of_either_format() {
+    let folder = folder();
+    let render = |out: &str, more: &[&str]| {
+        let arguments = [&["render", "demo:radial:1000", "--size", "64x48", "--out", out], more].concat();
+        let outcome = sphcast(folder.path(), &arguments);
+        assert_eq!(outcome.status, 0, "{}", outcome.err);
+    };
+    render("a.exr", &["--stats", "a.json"]);
+    render("b.exr", &["--tolerance", "off"]);
+    render("a.png", &[]);
+    render("c.exr", &["--support-radius", "0.3", "--kernel", "cubic"]);
+    let stats: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("a.json")).unwrap()).unwrap();
+    assert_eq!(stats["particles"], 1000);
+    assert!(stats["milliseconds"]["total"].as_f64().unwrap() > 0.0);
+    assert_eq!(image::open(folder.path().join("a.png")).unwrap().to_rgba8().dimensions(), (64, 48));
+
+    let compare = |b: &str, more: &[&str]| sphcast(folder.path(), &[&["compare", "a.exr", b], more].concat());
+    assert_eq!(compare("b.exr", &["--fail-above", "0.004"]).status, 0);
+    // Eight bits are near, but not the same; another radius is far.
+    assert_eq!(compare("a.png", &["--fail-above", "0.02"]).status, 0);
+    let other = compare("c.exr", &["--fail-above", "0.01"]);
+    assert_eq!(other.status, 1);
+    assert!(other.error().starts_with("a.exr: differs by "), "{}", other.err);
+    assert!(other.out.starts_with("max   0."), "{}", other.out);
+    assert_eq!(compare("c.exr", &[]).status, 0);
+}
+
+#[test]
+fn pictures_of_two_sizes_cannot_be_compared() {
+    let folder = folder();
+    image::RgbaImage::new(4, 4).save(folder.path().join("a.png")).unwrap();
+    image::RgbaImage::new(4, 5).save(folder.path().join("b.png")).unwrap();
+    let outcome = sphcast(folder.path(), &["compare", "a.png", "b.png"]);
+    assert_eq!(outcome.status, 1);
+    assert_eq!(outcome.error(), "a.png: is 4 x 4 pixels, b.png is 4 x 5");
+}
+
+#[test]
+fn a_run_goes_on_after_a_bad_frame() {
+    let folder = folder();
+    let arguments = ["render", "run", "--size", "32x32", "--out", "out-{:03}.png", "--stats", "stats.json"];
+    let outcome = sphcast(folder.path(), &arguments);
+    assert_eq!(outcome.status, 1);
+    assert!(outcome.err.contains("warning: run/frame_2.vtk: "), "{}", outcome.err);
+    assert_eq!(outcome.error(), "run/frame_2.vtk: no picture: 1 of 3 frames failed");
+    assert_eq!(files_in(folder.path()), ["one.vtk", "out-000.png", "out-002.png", "run", "stats.json"]);
+    let stats: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("stats.json")).unwrap()).unwrap();
+    assert_eq!(stats.as_array().unwrap().len(), 2);
+
+    let last =
+        sphcast(folder.path(), &["render", "run", "--size", "8x8", "--frames", "2..", "--out", "pictures"]);
+    assert_eq!(last.status, 0, "{}", last.err);
+    assert_eq!(files_in(&folder.path().join("pictures")), ["frame-0002.png"]);
+}
+
+#[test]
+fn a_picture_is_written_whole_or_not_at_all() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("taken.png")).unwrap();
+    fs::write(folder.path().join("taken.png/inside"), "").unwrap();
+    let missing = sphcast(folder.path(), &["render", "one.vtk", "--size", "8x8", "--out", "no/a.png"]);
+    assert_eq!(missing.status, 1);
+    assert!(missing.error().starts_with("no/a.png: cannot be written"), "{}", missing.err);
+    let unknown = sphcast(folder.path(), &["render", "one.vtk", "--quantity", "dye", "--out", "a.png"]);
+    assert_eq!(unknown.error(), "one.vtk: there is no field `dye`; there are: concentration");
+    assert_eq!(files_in(folder.path()), ["one.vtk", "run", "taken.png"]);
+}

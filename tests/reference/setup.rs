@@ -1,0 +1,45 @@
+//! All settings of one picture, as numbers of the twin's own.
+
+use renderer::View;
+
+use crate::camera::Camera;
+use crate::kernels::Kernel;
+use crate::quantity::Range;
+use crate::slices::Slices;
+use crate::transfer::Transfer;
+
+/// What a picture depends on besides its particles. Lengths in the unit of the run.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    pub camera: Camera,
+    pub slices: Slices,
+    pub kernel: Kernel,
+    pub range: Range,
+    pub transfer: Transfer,
+    pub reference_length: f64,
+    /// Where in its slab, from front (0) to back (1), a sample is taken: ½ by the contract. Any
+    /// other value makes a twin that is wrong on purpose.
+    pub place_in_slab: f64,
+}
+
+impl Setup {
+    /// The setup of a `view` that leaves nothing open: camera with near and far, range of the
+    /// quantity, reference length.
+    pub fn new(view: &View) -> Setup {
+        let camera_view = view.camera.as_ref().expect("the twin takes the camera as given");
+        let camera = Camera::new(camera_view, view.image.width, view.image.height);
+        let [min, max] = view.quantity.range.expect("the twin takes the range as given");
+        Setup {
+            camera,
+            slices: Slices::new(&camera, view.sampling.rate),
+            kernel: view.particles.kernel.into(),
+            range: Range { min, max },
+            transfer: Transfer::new(&view.transfer.points),
+            reference_length: view
+                .transfer
+                .reference_length
+                .expect("the twin takes the reference length as given"),
+            place_in_slab: 0.5,
+        }
+    }
+}

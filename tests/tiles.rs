@@ -1,0 +1,107 @@
+//! A device with little memory renders in tiles, and renders the same picture.
+
+use std::ops::ControlFlow;
+
+use reference::compare::compare;
+use reference::device::{mismatch, open, picture, prepare, render};
+use reference::picture::Image;
+use reference::scenes::{self, Scene, Shape, grey};
+use renderer::{GpuOptions, Kernel, RenderError, Renderer, TooLarge, TransferFunction};
+
+/// Bytes that a tile may take: from a few tiles to a single bundle a tile.
+const MEMORY: [u64; 3] = [1 << 20, 256 << 10, 192 << 10];
+
+fn little(memory: u64) -> Renderer {
+    open(&GpuOptions { memory: Some(memory), ..GpuOptions::default() })
+}
+
+fn scenes() -> Vec<Scene> {
+    let mut deep = scenes::plain(121, 17, 9);
+    let camera = deep.view.camera.as_mut().expect("plain scenes have a camera");
+    camera.near = Some(0.01);
+    deep.view.sampling.rate = 8.0;
+    deep.name = "many layers".to_owned();
+    let mut dense = scenes::plain(122, 64, 48);
+    dense.particles.iter_mut().for_each(|particle| particle.support_radius *= 3.0);
+    dense.name = "many references".to_owned();
+    let mut scenes = vec![scenes::plain(120, 64, 48), deep, dense];
+    let shapes = [Shape::JitteredLattice, Shape::Sheet, Shape::MixedRadii, Shape::Dust];
+    scenes.extend(shapes.into_iter().zip(123..).map(|(shape, seed)| {
+        let mut scene = scenes::random(seed, shape, [33, 21], Kernel::ALL[seed as usize % 3]);
+        // No spikes and steps, of which the order of sums could make something visible.
+        scene.view.transfer.points = scenes::plain_view(1, 1).transfer.points;
+        scene
+    }));
+    scenes
+}
+
+#[test]
+fn little_memory_makes_the_same_pictures() {
+    let scenes = scenes();
+    let whole: Vec<Image<f32>> = scenes.iter().map(picture).collect();
+    for memory in MEMORY {
+        let mut renderer = little(memory);
+        for (scene, whole) in scenes.iter().zip(&whole) {
+            let tiled = Image::from(&render(&mut renderer, &prepare(scene)));
+            let comparison = compare(whole, &tiled);
+            assert!(comparison.max <= 1e-4, "{} with {memory} bytes: {comparison}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn tiled_pictures_match_the_twin() {
+    let mut renderer = little(192 << 10);
+    for scene in scenes() {
+        let image = Image::from(&render(&mut renderer, &prepare(&scene)));
+        let mismatch = mismatch(&scene, &image);
+        assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
+    }
+}
+
+#[test]
+fn large_and_small_scenes_in_turn() {
+    let mut renderer = little(192 << 10);
+    let mut small = scenes::plain(130, 33, 21);
+    small.particles.truncate(100);
+    let scenes = [scenes::plain(131, 33, 21), small];
+    let prepared = scenes.each_ref().map(prepare);
+    for (scene, prepared) in scenes.iter().zip(&prepared).cycle().take(6) {
+        let image = Image::from(&render(&mut renderer, prepared));
+        let mismatch = mismatch(scene, &image);
+        assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
+        // Another transfer function on whatever the device still holds.
+        let (mut other, mut held) = (scene.clone(), prepared.clone());
+        other.view.transfer.points = vec![grey(0.0, 0.1, 0.3), grey(0.4, 0.9, 0.02), grey(1.0, 0.2, 0.2)];
+        held.transfer = TransferFunction::new(&other.view.transfer.points).expect("points are in order");
+        let image = Image::from(&render(&mut renderer, &held));
+        let mismatch = reference::device::mismatch(&other, &image);
+        assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
+    }
+}
+
+/// A cell with more particles than a tile may hold.
+fn crowd() -> Scene {
+    let mut crowd = scenes::plain(132, 8, 8);
+    crowd.particles.iter_mut().for_each(|particle| particle.position *= 0.01);
+    crowd
+}
+
+#[test]
+fn too_little_memory_is_an_error_and_the_next_picture_is_right() {
+    let mut renderer = little(32 << 10);
+    let result = renderer.render(&prepare(&crowd()), &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(result, Err(RenderError::TooLarge(_))), "{result:?}");
+    let mut scene = scenes::plain(133, 33, 21);
+    scene.particles.truncate(100);
+    let mismatch = mismatch(&scene, &Image::from(&render(&mut renderer, &prepare(&scene))));
+    assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
+}
+
+#[test]
+fn an_error_of_memory_says_how_much_would_do() {
+    let scene = prepare(&crowd());
+    let result = little(32 << 10).render(&scene, &mut |_| ControlFlow::Continue(()));
+    let Err(RenderError::TooLarge(TooLarge { needed, limit, .. })) = result else { panic!("{result:?}") };
+    assert!(needed > limit, "{needed} are said to be more than {limit}");
+}
