@@ -5,4 +5,5 @@ pub mod frames;
 pub mod image_file;
 mod io_error;
 pub mod scene;
+pub mod view_file;
 pub mod viewer;

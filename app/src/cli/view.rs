@@ -1,12 +1,11 @@
 //! `--view` and the flags that override it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context, anyhow};
 use renderer::{Kernel, View};
 
 use crate::frames::{Sequence, demo};
-use crate::io_error::describe;
+use crate::view_file;
 
 /// What defines a picture: a file, and flags that go before it.
 #[derive(clap::Args)]
@@ -45,7 +44,7 @@ impl ViewArguments {
     /// A file that cannot be read, is not a view, or holds a value out of range; the file comes first.
     pub fn resolve(&self, sequence: &Sequence) -> anyhow::Result<View> {
         let mut view = match &self.view {
-            Some(path) => read(path)?,
+            Some(path) => view_file::read(path)?,
             None if sequence.is_demo() => demo::view(),
             None => View::default(),
         };
@@ -61,22 +60,6 @@ impl ViewArguments {
         view.particles.kernel = self.kernel.unwrap_or(view.particles.kernel);
         Ok(view)
     }
-}
-
-fn read(path: &Path) -> anyhow::Result<View> {
-    let name = || path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| anyhow!(describe(&error))).with_context(name)?;
-    // A byte order mark is no part of JSON, but editors write one.
-    let view = View::from_json(text.trim_start_matches('\u{feff}')).map_err(|error| {
-        // `<what>: <where>`, as for every other file.
-        let what = error.to_string();
-        let place = format!(" at line {} column {}", error.line(), error.column());
-        let what = what.strip_suffix(&place).unwrap_or(&what).to_owned();
-        anyhow!("{what}: line {}, column {}", error.line(), error.column())
-    });
-    let view = view.with_context(name)?;
-    view.validate().with_context(name)?;
-    Ok(view)
 }
 
 /// `1024x768`

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::Instant;
 
-use anyhow::{Context, anyhow};
 use egui::Ui;
 use renderer::{GpuOptions, View};
 use winit::window::Window;
 
 use crate::frames::Sequence;
-use crate::image_file;
+use crate::{image_file, view_file};
 
 use super::analysis::Analysis;
 use super::dialogs::{Dialogs, Outcome, Purpose};
@@ -278,7 +277,7 @@ impl Desk {
 
     fn load_view(&mut self, path: PathBuf) {
         self.work(move || {
-            let view = read_view(&path);
+            let view = view_file::read(&path);
             Done::ViewRead(path, view.map(Box::new))
         });
     }
@@ -355,16 +354,6 @@ impl Desk {
             _ => None,
         }
     }
-}
-
-/// Reads a view; errors name the file, and the key or the place in it.
-fn read_view(path: &Path) -> anyhow::Result<View> {
-    let name = || path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(name)?;
-    let view = View::from_json(text.trim_start_matches('\u{feff}')).map_err(|error| anyhow!(error));
-    let view = view.with_context(name)?;
-    view.validate().with_context(name)?;
-    Ok(view)
 }
 
 /// A file name that ends in one of `endings`, the first unless it has another of them.

@@ -37,7 +37,7 @@ pub struct Dialogs {
 }
 
 /// A person takes longer than this to close a dialog.
-const AT_ONCE: Duration = Duration::from_millis(250);
+const AT_ONCE: Duration = Duration::from_millis(600);
 const FRAMES: [&str; 12] =
     ["vtk", "vtu", "vtp", "pvd", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5"];
 

@@ -25,10 +25,15 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
     if desk.side_panel {
         let side = Frame::new().fill(theme::PANEL);
         Panel::right("side").exact_size(theme::SIDE_WIDTH).resizable(false).frame(side).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            // In a place of its own: contents that are too wide are cut off, and leave the panel's width alone.
+            let place = ui.max_rect();
+            let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(place));
+            inside.set_clip_rect(place);
+            ScrollArea::vertical().auto_shrink(false).show(&mut inside, |ui| {
                 let margin = Margin { left: theme::MARGIN, right: theme::MARGIN, top: 4, bottom: 4 };
                 Frame::new().inner_margin(margin).show(ui, |ui| sections(ui, desk, actions));
             });
+            ui.allocate_rect(place, egui::Sense::hover());
         });
     }
     let outer = ui.available_rect_before_wrap();

@@ -1,7 +1,7 @@
 //! The picture in the window, and what the mouse does over it.
 
 use egui::{
-    Align2, Color32, ColorImage, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Stroke,
+    Align2, Color32, ColorImage, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
     TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
 use glam::{DVec2, DVec3};
@@ -60,6 +60,10 @@ impl PictureView {
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
+        }
+        if !session.fits_window {
+            // Where the saved picture ends.
+            ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
         }
         self.steer(ui, &response, rect, session);
         if let Some(camera) = &session.camera {

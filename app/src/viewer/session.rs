@@ -1,10 +1,12 @@
 //! The state of the program: run, playhead, view, messages. Knows no window and no egui.
 
+mod wish;
+
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use renderer::{Bounds, Stats, View};
+use renderer::{Bounds, Rejected, Stats, View};
 
 use crate::frames::{Frame, FrameState};
 
@@ -58,6 +60,8 @@ pub struct Session {
     seen: HashMap<Option<String>, [f64; 2]>,
     /// Frames that were reported as bad.
     told: BTreeSet<usize>,
+    /// Frames of which it was said that particles are left out.
+    told_left_out: BTreeSet<usize>,
     /// The frame whose picture failed, so that playing goes on.
     without_picture: Option<usize>,
     /// Box around the particles of all frames pictured so far, and their largest support radius.
@@ -89,6 +93,7 @@ impl Session {
             adapter: None,
             seen: HashMap::new(),
             told: BTreeSet::new(),
+            told_left_out: BTreeSet::new(),
             without_picture: None,
             extent: (None, 0.0),
             moving_until: None,
@@ -113,6 +118,7 @@ impl Session {
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
         self.seen.clear();
         self.told.clear();
+        self.told_left_out.clear();
         self.extent = (None, 0.0);
         if !first {
             // The settings of another run's place and scale.
@@ -252,74 +258,6 @@ impl Session {
         }
     }
 
-    /// The job for the renderer, where what is wanted has changed. `room` is the place for the
-    /// picture in the window, in physical pixels.
-    pub fn job(&mut self, now: Instant, room: [u32; 2]) -> Option<Job> {
-        self.room = room;
-        let moving = self.playback.playing() || self.moving_until.is_some_and(|until| now < until);
-        let (index, frame) = self.frame.as_ref()?;
-        if self.without_picture == Some(*index) && self.playback.playing() {
-            return None;
-        }
-        let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving };
-        if job.view.image.width == 0 || job.view.image.height == 0 {
-            return None;
-        }
-        let same = |asked: &Job| {
-            Arc::ptr_eq(&asked.frame, &job.frame) && asked.view == job.view && asked.moving == job.moving
-        };
-        if self.asked.as_ref().is_some_and(same) {
-            return None;
-        }
-        self.asked = Some(job.clone());
-        Some(job)
-    }
-
-    /// Asks for the next job although nothing has changed.
-    pub fn ask_again(&mut self) {
-        self.asked = None;
-    }
-
-    /// The view as the window shows it: as large as there is room.
-    fn drawn_view(&self) -> View {
-        let mut view = self.complete_view();
-        [view.image.width, view.image.height] = self.fitted();
-        view
-    }
-
-    /// The largest picture of the image's shape that fits into the window, in physical pixels.
-    pub fn fitted(&self) -> [u32; 2] {
-        let [width, height] = self.room;
-        if self.fits_window {
-            return [width, height];
-        }
-        let (across, down) = (self.view.image.width.max(1), self.view.image.height.max(1));
-        let (across, down) = (u64::from(across), u64::from(down));
-        let high = u64::from(width) * down / across;
-        match high <= u64::from(height) {
-            true => [width, (high as u32).max(1)],
-            false => [((u64::from(height) * across / down) as u32).max(1), height],
-        }
-    }
-
-    /// The view with everything that the session decides: what is saved, and what a saved picture
-    /// is made from.
-    pub fn complete_view(&self) -> View {
-        let mut view = self.view.clone();
-        if let Some(camera) = self.camera {
-            view.camera = Some(camera.to_view());
-        }
-        if self.fits_window && self.room != [0, 0] {
-            [view.image.width, view.image.height] = self.room;
-        }
-        view.quantity.range = match self.range_source {
-            RangeSource::Frame => None,
-            RangeSource::Seen => self.seen.get(&self.view.quantity.name).copied(),
-            RangeSource::Fixed => self.view.quantity.range,
-        };
-        view
-    }
-
     /// Takes note of what the renderer reports; the picture itself is the caller's.
     pub fn note(&mut self, report: &Report) {
         match report {
@@ -357,12 +295,8 @@ impl Session {
                 self.camera = Some(camera);
             }
         }
-        if facts.rejected.total() > 0 {
-            let total = facts.rejected.total();
-            let (non_finite, bad_radius) = (facts.rejected.non_finite, facts.rejected.bad_radius);
-            self.messages.warn(format!(
-                "{total} particles are left out: {non_finite} not finite, {bad_radius} without a valid radius"
-            ));
+        if facts.rejected.total() > 0 && self.told_left_out.insert(shown.index) {
+            self.messages.warn(left_out(shown.index, facts.rejected));
         }
         let size = if shown.divisor == 1 { "full".into() } else { format!("1/{}", shown.divisor) };
         self.log(format!("picture frame={} {}x{} {size}", shown.index, shown.width, shown.height));
@@ -425,6 +359,17 @@ impl Session {
     pub fn take_events(&mut self) -> Vec<String> {
         std::mem::take(&mut self.events)
     }
+}
+
+/// Says why particles of a frame are not in its picture.
+fn left_out(index: usize, rejected: Rejected) -> String {
+    let reasons = [
+        (rejected.non_finite, "with a position or value that is not finite"),
+        (rejected.bad_radius, "without a valid radius"),
+    ];
+    let reasons: Vec<String> =
+        reasons.iter().filter(|(count, _)| *count > 0).map(|(count, why)| format!("{count} {why}")).collect();
+    format!("Frame {index}: left out {}", reasons.join(", "))
 }
 
 #[cfg(test)]

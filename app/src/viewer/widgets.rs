@@ -119,7 +119,7 @@ pub fn wide_button(ui: &mut Ui, label: &str, width: f32) -> Response {
 /// A number in an unbounded unit: as many digits as tell something, dragged in proportion to its size.
 pub fn number<'a>(value: &'a mut f64, scale: f64) -> egui::DragValue<'a> {
     let speed = (value.abs().max(scale.abs()) * 0.005).max(f64::MIN_POSITIVE);
-    egui::DragValue::new(value).speed(speed).custom_formatter(|value, _| short(value))
+    egui::DragValue::new(value).speed(speed).custom_formatter(move |value, _| on_axis(value, scale))
 }
 
 /// Four significant digits, with an exponent where that is shorter.
@@ -137,6 +137,11 @@ pub fn short(value: f64) -> String {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
     }
+}
+
+/// A value on an axis of length `span`, on which what is too small to be seen is zero.
+pub fn on_axis(value: f64, span: f64) -> String {
+    if value.abs() < 1e-6 * span.abs() { "0".into() } else { short(value) }
 }
 
 /// A count with its thousands apart.
@@ -185,6 +190,8 @@ mod tests {
         assert_eq!(short(123_456.0), "123456");
         assert_eq!(short(1.234_56e-8), "1.235e-8");
         assert_eq!(short(120.0), "120");
+        assert_eq!(on_axis(8.859e-15, 1.0), "0");
+        assert_eq!(on_axis(8.859e-15, 2e-14), "8.859e-15");
     }
 
     #[test]

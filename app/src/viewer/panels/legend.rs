@@ -45,7 +45,7 @@ pub fn show(ui: &Ui, session: &Session, picture: Rect) {
     for tick in 0..=ticks {
         let u = if ticks == 0 { 0.5 } else { f64::from(tick) / f64::from(ticks) };
         let y = bar.bottom() - u as f32 * bar.height();
-        let text = widgets::short(low + u * (high - low));
+        let text = widgets::on_axis(low + u * (high - low), high - low);
         outlined(ui, pos2(bar.left() - 7.0, y), Align2::RIGHT_CENTER, &text, theme::number_font());
     }
     if let Some(name) = name {

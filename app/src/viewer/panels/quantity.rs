@@ -56,6 +56,7 @@ fn range(ui: &mut Ui, session: &mut Session) {
     let Some([mut low, mut high]) = in_effect else { return };
     let scale = (high - low).abs();
     widgets::row(ui, "Range", |ui| {
+        ui.spacing_mut().button_padding.x = 3.0;
         const BETWEEN: f32 = 16.0;
         let gaps = 2.0 * ui.spacing().item_spacing.x;
         let width = (ui.available_width() - BETWEEN - gaps) / 2.0;
@@ -70,7 +71,8 @@ fn range(ui: &mut Ui, session: &mut Session) {
         }
     });
     if let Some([least, most]) = session.analysis.as_ref().and_then(|analysis| analysis.extremes) {
-        widgets::fact(ui, "In this frame", format!("{} … {}", widgets::short(least), widgets::short(most)));
+        let [least, most] = [least, most].map(|value| widgets::on_axis(value, most - least));
+        widgets::fact(ui, "In this frame", format!("{least} … {most}"));
     }
 }
 

@@ -148,7 +148,7 @@ impl TransferEditor {
         ];
         for (place, align, value) in ticks {
             let font = egui::FontId::monospace(11.0);
-            ui.painter().text(place, align, widgets::short(value), font, theme::MUTED);
+            ui.painter().text(place, align, widgets::on_axis(value, high - low), font, theme::MUTED);
         }
     }
 

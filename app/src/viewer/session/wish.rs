@@ -1,0 +1,79 @@
+//! What the session wants: the job for the renderer, and the view that is saved.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use renderer::View;
+
+use super::{RangeSource, Session};
+use crate::viewer::render_thread::Job;
+
+impl Session {
+    /// The job for the renderer, where what is wanted has changed. `room` is the place for the
+    /// picture in the window, in physical pixels.
+    pub fn job(&mut self, now: Instant, room: [u32; 2]) -> Option<Job> {
+        self.room = room;
+        let moving = self.playback.playing() || self.moving_until.is_some_and(|until| now < until);
+        let (index, frame) = self.frame.as_ref()?;
+        if self.without_picture == Some(*index) && self.playback.playing() {
+            return None;
+        }
+        let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving };
+        if job.view.image.width == 0 || job.view.image.height == 0 {
+            return None;
+        }
+        let same = |asked: &Job| {
+            Arc::ptr_eq(&asked.frame, &job.frame) && asked.view == job.view && asked.moving == job.moving
+        };
+        if self.asked.as_ref().is_some_and(same) {
+            return None;
+        }
+        self.asked = Some(job.clone());
+        Some(job)
+    }
+
+    /// Asks for the next job although nothing has changed.
+    pub fn ask_again(&mut self) {
+        self.asked = None;
+    }
+
+    /// The view as the window shows it: as large as there is room.
+    fn drawn_view(&self) -> View {
+        let mut view = self.complete_view();
+        [view.image.width, view.image.height] = self.fitted();
+        view
+    }
+
+    /// The largest picture of the image's shape that fits into the window, in physical pixels.
+    pub fn fitted(&self) -> [u32; 2] {
+        let [width, height] = self.room;
+        if self.fits_window {
+            return [width, height];
+        }
+        let (across, down) = (self.view.image.width.max(1), self.view.image.height.max(1));
+        let (across, down) = (u64::from(across), u64::from(down));
+        let high = u64::from(width) * down / across;
+        match high <= u64::from(height) {
+            true => [width, (high as u32).max(1)],
+            false => [((u64::from(height) * across / down) as u32).max(1), height],
+        }
+    }
+
+    /// The view with everything that the session decides: what is saved, and what a saved picture
+    /// is made from.
+    pub fn complete_view(&self) -> View {
+        let mut view = self.view.clone();
+        if let Some(camera) = self.camera {
+            view.camera = Some(camera.to_view());
+        }
+        if self.fits_window && self.room != [0, 0] {
+            [view.image.width, view.image.height] = self.room;
+        }
+        view.quantity.range = match self.range_source {
+            RangeSource::Frame => None,
+            RangeSource::Seen => self.seen.get(&self.view.quantity.name).copied(),
+            RangeSource::Fixed => self.view.quantity.range,
+        };
+        view
+    }
+}
