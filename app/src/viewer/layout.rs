@@ -83,10 +83,14 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
         (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
         _ => {}
     }
-    if let (None, Some(trouble)) = (picture, desk.session.trouble()) {
-        let text = format!("Frame {} cannot be read: {trouble}", desk.session.playback.index());
-        let font = egui::FontId::proportional(15.0);
-        ui.painter().text(outer.center(), Align2::CENTER_CENTER, text, font, theme::ERROR);
+    if let Some(text) = nothing(desk) {
+        let galley = ui.painter().layout(
+            text,
+            egui::FontId::proportional(15.0),
+            theme::MUTED,
+            (outer.width() - 48.0).max(80.0),
+        );
+        ui.painter().galley(outer.center() - 0.5 * galley.size(), galley, theme::MUTED);
     }
     if parts.is_empty() {
         return;
@@ -98,6 +102,18 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
     let chip = Rect::from_center_size(place, size);
     ui.painter().rect_filled(chip, 10, Color32::from_black_alpha(170));
     ui.painter().galley(chip.min + vec2(9.0, 4.0), galley, theme::TEXT);
+}
+
+/// Why nothing is to be seen, where that is so.
+fn nothing(desk: &Desk) -> Option<String> {
+    let index = desk.session.playback.index();
+    match &desk.session.picture {
+        Some(picture) if picture.facts.particles == 0 => {
+            Some(format!("Frame {} holds no particles", picture.index))
+        }
+        Some(_) => None,
+        None => desk.session.trouble().map(|_| format!("Frame {index} cannot be read; open another file")),
+    }
 }
 
 /// Pictures on their way to files.

@@ -4,11 +4,14 @@ use egui::Ui;
 use glam::DVec3;
 
 use crate::viewer::session::Session;
-use crate::viewer::widgets;
+use crate::viewer::{theme, widgets};
 
 pub fn show(ui: &mut Ui, session: &mut Session) {
     let drawn = session.picture.as_ref().map(|picture| [picture.stats.near, picture.stats.far]);
-    let Some(camera) = &mut session.camera else { return };
+    let Some(camera) = &mut session.camera else {
+        ui.label(egui::RichText::new("No picture yet.").color(theme::FAINT));
+        return;
+    };
     widgets::row(ui, "Field of view", |ui| {
         let field = egui::DragValue::new(&mut camera.fov_y_degrees).range(1.0..=120.0).speed(0.2);
         ui.add(field.suffix("°").max_decimals(1)).on_hover_text("Vertical angle of view");

@@ -4,10 +4,11 @@ use egui::Ui;
 
 use crate::scene::{Selection, quantity_names};
 use crate::viewer::session::{RangeSource, Session};
-use crate::viewer::widgets;
+use crate::viewer::{theme, widgets};
 
 pub fn show(ui: &mut Ui, session: &mut Session) {
     let Some((_, frame)) = session.frame().cloned() else {
+        ui.label(egui::RichText::new("No frame yet.").color(theme::FAINT));
         return;
     };
     let names = quantity_names(&frame);
