@@ -36,7 +36,8 @@ impl TileLimits {
     /// a quarter each for particles, references, counters and pixels.
     pub(crate) fn new(binding: u64, memory: u64) -> TileLimits {
         let quarter = memory / 4;
-        let share = binding.min(quarter);
+        // Rounded down as buffers are rounded up.
+        let share = binding.min(quarter) / 16 * 16;
         // Places in the shaders are 32 bits wide.
         let words = (share / WORD).clamp(1, u64::from(u32::MAX) / 2);
         TileLimits {

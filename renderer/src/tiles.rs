@@ -140,7 +140,7 @@ impl Renderer {
                 return Err(RenderError::Cancelled);
             }
             let end = bundles.min(first + self.pace.bundles());
-            self.cast.write_chunk(&self.gpu, first..end)?;
+            self.cast.write_chunk(&self.gpu, first..end, bundles)?;
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             if first == 0 {
                 encoder.clear_buffer(self.cast.counters.raw(), 0, None);

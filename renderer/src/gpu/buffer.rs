@@ -5,6 +5,9 @@ use bytemuck::{NoUninit, Pod};
 use super::Gpu;
 use crate::error::RenderError;
 
+/// Buffers are a whole number of these many bytes.
+const GRAIN: u64 = 16;
+
 /// A buffer of numbers of one size, with room for at least one.
 pub(crate) struct Buffer {
     label: &'static str,
@@ -29,7 +32,7 @@ impl Buffer {
 
     /// Makes room for `count` elements; contents are lost where the buffer grows.
     pub(crate) fn reserve(&mut self, gpu: &Gpu, count: u64) -> Result<(), RenderError> {
-        let needed = count.max(1) * self.stride;
+        let needed = (count.max(1) * self.stride).next_multiple_of(GRAIN);
         if needed <= self.buffer.size() {
             return Ok(());
         }
@@ -72,7 +75,7 @@ impl Buffer {
 fn create(gpu: &Gpu, label: &'static str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        size: size.next_multiple_of(16),
+        size: size.next_multiple_of(GRAIN),
         usage,
         mapped_at_creation: false,
     })

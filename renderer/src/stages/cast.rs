@@ -1,5 +1,7 @@
 //! Full-sampling ray casting (HPG 2016, Alg. 2).
 
+use std::ops::Range;
+
 use bytemuck::{Pod, Zeroable};
 
 use super::grid::Grid;
@@ -14,9 +16,10 @@ use crate::plan::Tile;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 struct Chunk {
-    first_bundle: u32,
-    end_bundle: u32,
-    padding: [u32; 2],
+    first_turn: u32,
+    end_turn: u32,
+    stride: u32,
+    padding: u32,
 }
 
 pub(crate) struct Cast {
@@ -82,18 +85,21 @@ impl Cast {
         self.pixels.reserve(gpu, tile.bundles() * 64)
     }
 
-    /// Says which bundles of the tile the next submission casts.
+    /// Says which bundles of the tile the next submission casts: those whose `turns` it is.
     pub(crate) fn write_chunk(
         &mut self,
         gpu: &Gpu,
-        bundles: std::ops::Range<u64>,
+        turns: Range<u64>,
+        bundles: u64,
     ) -> Result<(), RenderError> {
-        let chunk =
-            Chunk { first_bundle: bundles.start as u32, end_bundle: bundles.end as u32, padding: [0; 2] };
+        // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
+        // its caches. A software adapter gives each thread a stretch of them beforehand.
+        let stride = if gpu.is_software() { spread(bundles) } else { 1 };
+        let chunk = Chunk { first_turn: turns.start as u32, end_turn: turns.end as u32, stride, padding: 0 };
         self.chunk.write(gpu, &[chunk])
     }
 
-    /// Records the casting of `bundles` bundles: those that [`Cast::write_chunk`] named.
+    /// Records the casting of `bundles` bundles: as many as [`Cast::write_chunk`] named.
     #[expect(clippy::too_many_arguments, reason = "one for each thing the shader reads")]
     pub(crate) fn record(
         &self,
@@ -132,14 +138,40 @@ impl Cast {
     }
 }
 
+/// A stride by which every stretch of turns visits bundles from all over the picture: near the golden
+/// ratio of their number, and coprime to it, so that every bundle has its turn once.
+fn spread(bundles: u64) -> u32 {
+    // The product with a turn has to fit 32 bits.
+    let limit = u64::from(u32::MAX) / bundles.max(1);
+    let wanted = ((bundles as f64 * 0.618) as u64).clamp(1, limit);
+    (1..=wanted).rev().find(|&stride| gcd(stride, bundles) == 1).unwrap_or(1) as u32
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_bundle_has_its_turn_once() {
+        for bundles in [1, 2, 3, 4, 6, 48, 660, 4096, 10_007, 131_072] {
+            let stride = u64::from(spread(bundles));
+            let mut seen = vec![false; bundles as usize];
+            for turn in 0..bundles {
+                let product = u32::try_from(turn * stride).expect("32 bits, as in the shader");
+                let bundle = u64::from(product) % bundles;
+                assert!(!std::mem::replace(&mut seen[bundle as usize], true));
+            }
+        }
+    }
     use crate::stages::layout::check_layout;
 
     #[test]
     fn chunks_lie_as_the_shader_expects() {
         let source = [FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")].concat();
-        check_layout!(&source, "Chunk", Chunk, first_bundle, end_bundle, padding);
+        check_layout!(&source, "Chunk", Chunk, first_turn, end_turn, stride, padding);
     }
 }

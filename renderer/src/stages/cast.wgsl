@@ -5,10 +5,12 @@
 // that middle's depth z_c: a squared distance then never cancels against the distance to the eye.
 
 struct Chunk {
-    // Bundles of the tile to cast: the first, and the one after the last.
-    first_bundle: u32,
-    end_bundle: u32,
-    padding: vec2<u32>,
+    // Turns of the tile to cast: the first, and the one after the last.
+    first_turn: u32,
+    end_turn: u32,
+    // Turn t is that of bundle t·stride mod the number of bundles.
+    stride: u32,
+    padding: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -236,10 +238,11 @@ fn settle_tally(entry: u32) {
 
 @compute @workgroup_size(LANES)
 fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let index = chunk.first_bundle + flat(workgroup);
-    if index >= chunk.end_bundle {
+    let turn = chunk.first_turn + flat(workgroup);
+    if turn >= chunk.end_turn {
         return;
     }
+    let index = (turn * chunk.stride) % (tile.count.x * tile.count.y);
     let bundle = tile.first + vec2(index % tile.count.x, index / tile.count.x);
     let corner = vec2<f32>(bundle * BUNDLE_SIDE);
     let in_bundle = vec2<f32>(place_in_bundle(lane));
