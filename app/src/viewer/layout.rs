@@ -77,8 +77,11 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
     match (desk.busy(), picture) {
         (Some(text), _) => parts.push(text.to_owned()),
         (None, Some(picture)) if picture.divisor > 1 => {
-            let share = desk.render.share().map_or(String::new(), |share| format!(" {:.0} %", 100.0 * share));
-            parts.push(format!("1/{} resolution, refining{share}", picture.divisor));
+            let refining = match desk.render.share().filter(|_| !desk.session.playback.playing()) {
+                Some(share) => format!(", refining {:.0} %", 100.0 * share),
+                None => String::new(),
+            };
+            parts.push(format!("1/{} resolution{refining}", picture.divisor));
         }
         (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
         _ => {}
