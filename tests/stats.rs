@@ -9,7 +9,7 @@ use reference::grid::{may, must};
 use reference::neighbours::Neighbours;
 use reference::scenes::{self, Scene, Shape, grey};
 use reference::setup::Setup;
-use renderer::{Kernel, Stats};
+use renderer::{Gpu, GpuOptions, Kernel, Renderer, Stats};
 
 /// Scenes in which every ray goes all the way through.
 fn clear_scenes() -> Vec<Scene> {
@@ -90,4 +90,19 @@ fn full_sampling_evaluates_every_sample_inside_a_support() {
         assert_eq!(stats.evaluations.done, full, "{}", scene.name);
         assert_eq!(stats.predicted_error, 0.0, "{}", scene.name);
     }
+}
+
+#[test]
+fn a_counting_renderer_knows_which_evaluations_were_inside() {
+    // Whole bundles, so that no lane works beyond the picture's edge.
+    let mut scene = scenes::plain(140, 32, 24);
+    scene.view.transfer.points = vec![grey(0.0, 0.5, 1e-4)];
+    let gpu = Gpu::new(&GpuOptions::default()).expect("an adapter");
+    let mut counting = Renderer::counting(gpu).expect("a renderer");
+    let counted = render(&mut counting, &prepare(&scene)).stats.evaluations;
+    let (plain, setup, particles) = stats(&scene);
+    let inside = samples_inside(&setup, &particles);
+    // A sample on the edge of a support may fall to either side.
+    assert!(counted.inside.abs_diff(inside) <= inside / 10_000 + 1, "{} of {inside}", counted.inside);
+    assert_eq!((counted.done, plain.evaluations.inside), (plain.evaluations.done, 0));
 }
