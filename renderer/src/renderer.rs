@@ -11,10 +11,14 @@ use crate::pace::Pace;
 use crate::picture::Picture;
 use crate::plan::{self, Tile, TileLimits};
 use crate::scene::Scene;
+use crate::stages::adapt::Adapt;
 use crate::stages::cast::Cast;
 use crate::stages::grid::Grid;
 use crate::stages::project::Project;
-use crate::stages::shared::{FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth};
+use crate::sampling::Sampling;
+use crate::stages::shared::{
+    Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth,
+};
 use crate::stats::{Milliseconds, Stats};
 use crate::tiles::Job;
 use crate::transfer::TransferFunction;
@@ -25,8 +29,9 @@ pub type Progress<'a> = dyn FnMut(f32) -> ControlFlow<()> + 'a;
 /// Turns scenes into pictures; keeps what the next picture can use again.
 ///
 /// - An unchanged scene costs nothing.
-/// - A new transfer function, reference length or kernel casts again on the same grid.
-/// - A new quantity is uploaded, and cast on the same grid.
+/// - A new tolerance, transfer function or reference length chooses again what to sample, from the
+///   same bounds of the quantity, and casts again.
+/// - A new kernel, or a new quantity, which is uploaded, is analysed and cast on the same grid.
 /// - A new camera projects and sorts again, without an upload.
 ///
 /// A picture of several tiles builds the grid of each tile anew whatever has changed.
@@ -41,11 +46,16 @@ pub struct Renderer {
     pub(crate) transfer: TransferTables,
     pub(crate) project: Project,
     pub(crate) grid: Grid,
+    pub(crate) bundles: Bundles,
+    pub(crate) adapt: Adapt,
     pub(crate) cast: Cast,
-    pub(crate) pace: Pace,
+    /// Of the analysis and of the casting.
+    pub(crate) pace: [Pace; 2],
     /// What the device holds: projected particles, and the grid of the only tile.
     pub(crate) projected: Option<Geometry>,
     pub(crate) sorted: Option<(Geometry, GridSize)>,
+    /// The grid whose bricks the device knows, with the quantity and the kernel they hold for.
+    pub(crate) analysed: Option<(Geometry, u64, Kernel)>,
     last: Option<(Geometry, Shading, Picture)>,
 }
 
@@ -68,6 +78,7 @@ pub(crate) struct Geometry {
 /// What, beside the grid, a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct Shading {
+    sampling: Sampling,
     quantity: u64,
     kernel: Kernel,
     transfer: TransferFunction,
@@ -95,10 +106,13 @@ impl Renderer {
             transfer: TransferTables::new(&gpu),
             project: Project::new(&gpu),
             grid: Grid::new(&gpu),
+            bundles: Bundles::new(&gpu),
+            adapt: Adapt::new(&gpu),
             cast: Cast::new(&gpu, count_inside),
-            pace: Pace::new(gpu.is_software()),
+            pace: [Pace::new(gpu.is_software()); 2],
             projected: None,
             sorted: None,
+            analysed: None,
             last: None,
             gpu,
         };
@@ -111,7 +125,7 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Renders `scene` at full sampling. Blocks until the picture is there, and asks `progress`
+    /// Renders `scene`, no channel of any pixel farther from full sampling than its tolerance. Blocks until the picture is there, and asks `progress`
     /// between submissions, some tens of milliseconds apart, whether to go on.
     pub fn render(&mut self, scene: &Scene, progress: &mut Progress) -> Result<Picture, RenderError> {
         let geometry = Geometry::of(scene);
@@ -126,7 +140,7 @@ impl Renderer {
         let result = self.render_stale(scene, progress);
         if result.is_err() {
             // What an interrupted picture left on the device is not known.
-            (self.projected, self.sorted) = (None, None);
+            (self.projected, self.sorted, self.analysed) = (None, None, None);
         }
         let picture = result?;
         self.last = Some((geometry, shading, picture.clone()));
@@ -151,16 +165,15 @@ impl Renderer {
                 Ok(size) => {
                     picture.stats.pairs += size.pairs;
                     picture.stats.cells += size.cells;
-                    picture.stats.cells_by_class.full += size.cells;
-                    self.cast_tile(&job, &tile, &mut tile_progress, &mut picture)?;
+                    self.cast_tile(&job, &tile, size, &mut tile_progress, &mut picture)?;
                     cells_done += tile.cells();
                 }
                 Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
             }
         }
         let milliseconds = &mut picture.stats.milliseconds;
-        milliseconds.total = milliseconds.upload + milliseconds.grid + milliseconds.ray_cast;
-        picture.stats.gpu_bytes = self.store.bytes() + self.grid.bytes() + self.cast.bytes();
+        milliseconds.total = milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
+        picture.stats.gpu_bytes = self.store.bytes() + self.grid.bytes() + self.bundles.bytes() + self.adapt.bytes() + self.cast.bytes();
         Ok(picture)
     }
 
@@ -171,11 +184,11 @@ impl Renderer {
         let geometry = Geometry::of(scene);
         let resident = scene.particles.len() as u64 <= limits.particles;
         if resident && self.store.upload(&self.gpu, &scene.particles, &scene.quantity)? {
-            (self.projected, self.sorted) = (None, None);
+            (self.projected, self.sorted, self.analysed) = (None, None, None);
         }
         self.transfer.write(&self.gpu, &scene.transfer)?;
         self.frame.write(&self.gpu, &[FrameUniform::new(scene, &slices, self.store.count())])?;
-        self.cast.write_slices(&self.gpu, &slices, pivot_depth(&scene.camera), scene.particles.unit())?;
+        self.bundles.write_slices(&self.gpu, &slices, pivot_depth(&scene.camera), scene.particles.unit())?;
         Ok(Job { scene, slices, geometry, limits, resident, only_tile: false })
     }
 
@@ -227,6 +240,7 @@ impl Geometry {
 impl Shading {
     fn of(scene: &Scene) -> Shading {
         Shading {
+            sampling: scene.sampling,
             quantity: scene.quantity.id(),
             kernel: scene.kernel,
             transfer: scene.transfer.clone(),

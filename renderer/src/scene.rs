@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::camera::Camera;
 use crate::kernel::Kernel;
 use crate::particles::{ParticleSet, Quantity};
+use crate::sampling::Sampling;
 use crate::transfer::TransferFunction;
 use crate::view::{View, ViewError};
 
@@ -23,6 +24,7 @@ pub struct Scene {
     pub reference_length: f64,
     /// Slices per pixel size.
     pub rate: f64,
+    pub sampling: Sampling,
 }
 
 impl Scene {
@@ -51,6 +53,7 @@ impl Scene {
             transfer: TransferFunction::new(&view.transfer.points)?,
             reference_length,
             rate: view.sampling.rate,
+            sampling: Sampling::new(&view.sampling),
             particles,
             quantity,
         })

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::particles::Rejected;
+use crate::stages::shared::Counters;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stats {
@@ -32,13 +33,43 @@ pub struct Stats {
     pub gpu_bytes: u64,
 }
 
+impl Stats {
+    /// Adds what was counted in a tile with `cells` filled cells.
+    pub(crate) fn count(&mut self, counters: &Counters, cells: u64, adapted: bool) {
+        self.evaluations.done += counters.evaluations + counters.bounds;
+        self.evaluations.inside += counters.inside;
+        self.evaluations.bounds += counters.bounds;
+        self.predicted_error = self.predicted_error.max(f64::from(counters.largest_charge));
+        let classes = &mut self.cells_by_class;
+        if !adapted {
+            self.evaluations.full += counters.evaluations;
+            classes.full += cells;
+            return;
+        }
+        let Counters { full, mixed, super_pixel, transparent, .. } = *counters;
+        classes.full += full;
+        classes.mixed += mixed;
+        classes.super_pixel += super_pixel;
+        classes.transparent += transparent;
+        classes.occluded += cells.saturating_sub(full + mixed + super_pixel + transparent);
+    }
+}
+
+/// Numbers of cells that hold particles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct CellClasses {
+    /// Sampled as a whole.
     pub full: u64,
+    /// Sampled in some bricks, and shown by one colour each in the others.
+    pub mixed: u64,
     /// Sampling levels 1 to 4.
     pub z_adaptive: [u64; 4],
+    /// Shown without a sample.
     pub super_pixel: u64,
+    /// With nothing to be seen in them.
     pub transparent: u64,
+    /// Behind what lets no light through that the tolerance would notice.
     pub occluded: u64,
 }
 
@@ -46,10 +77,13 @@ pub struct CellClasses {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Evaluations {
-    /// What full sampling of the same view computes.
+    /// What full sampling of the same view computes; 0 for an adaptive picture, which does not know.
     pub full: u64,
-    /// What this picture computed.
+    /// What this picture computed, the analysis counted in.
     pub done: u64,
+    /// The part of the analysis: an expansion of one particle in one brick counts as two.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub bounds: u64,
     /// Those of `done` with a weight above zero; 0 unless the renderer counts them.
     #[serde(skip_serializing_if = "is_zero")]
     pub inside: u64,

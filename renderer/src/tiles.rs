@@ -24,6 +24,29 @@ pub(crate) struct Job<'a> {
     pub only_tile: bool,
 }
 
+/// A stage that takes a workgroup for each bundle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Analysis,
+    Cast,
+}
+
+impl Stage {
+    fn label(self) -> &'static str {
+        match self {
+            Stage::Analysis => "analysis",
+            Stage::Cast => "ray cast",
+        }
+    }
+}
+
+/// How a stage is to go about a tile.
+struct Uniforms {
+    budget: f32,
+    stage: Stage,
+    adapted: bool,
+}
+
 /// First guess of the references that one particle needs; an overflow tells the true number.
 const PAIRS_PER_PARTICLE: u64 = 8;
 
@@ -61,6 +84,7 @@ impl Renderer {
         let frame = FrameUniform::new(job.scene, &job.slices, self.store.count());
         self.frame.write(&self.gpu, &[frame])?;
         self.grid.reserve(&self.gpu, tile)?;
+        self.analysed = None;
         self.sort_pairs(job, tile, times)
     }
 
@@ -124,39 +148,95 @@ impl Renderer {
         }
     }
 
-    /// Casts the rays of `tile` in submissions of bounded length, and puts its pixels into the picture.
+    /// Casts the rays of `tile`, sampled as its budget allows, and puts its pixels into the picture.
     pub(crate) fn cast_tile(
         &mut self,
         job: &Job,
         tile: &Tile,
+        size: GridSize,
         progress: &mut Progress,
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         self.cast.reserve(&self.gpu, tile)?;
+        // Behind a layer that has been cast before, the books of its rays are gone.
+        let budget = job.scene.sampling.budget().filter(|_| tile.first_layer == 0);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.bundles.clear_counters(&mut encoder);
+        self.gpu.queue.submit([encoder.finish()]);
+        if let Some(budget) = budget {
+            self.analyse(job, tile, size, budget, &mut |part| progress(0.25 * part), picture)?;
+        }
+        let begun = if budget.is_some() { 0.25 } else { 0.0 };
+        let uniforms = Uniforms { budget: budget.unwrap_or(0.0), stage: Stage::Cast, adapted: budget.is_some() };
+        self.for_bundles(job, tile, uniforms, &mut |part| progress(begun + (1.0 - begun) * part), picture)?;
+        self.fetch_tile(tile, size, budget.is_some(), picture)
+    }
+
+    /// Chooses which bricks of `tile` to sample; finds out about those not known yet.
+    fn analyse(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        size: GridSize,
+        budget: f32,
+        progress: &mut Progress,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
+        self.adapt.reserve(&self.gpu, tile, size.cells)?;
+        let wanted = (job.geometry.clone(), job.scene.quantity.id(), job.scene.kernel);
+        let known = self.analysed.take().filter(|known| job.only_tile && *known == wanted);
+        if known.is_none() {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            self.adapt.clear(&mut encoder);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        let uniforms = Uniforms { budget, stage: Stage::Analysis, adapted: true };
+        self.for_bundles(job, tile, uniforms, progress, picture)?;
+        self.analysed = job.only_tile.then_some(wanted);
+        Ok(())
+    }
+
+    /// Runs a stage over the bundles of `tile`, in submissions of bounded length.
+    fn for_bundles(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        Uniforms { budget, stage, adapted }: Uniforms,
+        progress: &mut Progress,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
         let bundles = tile.bundles();
         let mut first = 0;
         while first < bundles {
             if progress(first as f32 / bundles as f32).is_break() {
                 return Err(RenderError::Cancelled);
             }
-            let end = bundles.min(first + self.pace.bundles());
-            self.cast.write_chunk(&self.gpu, first..end, bundles)?;
+            let end = bundles.min(first + self.pace[stage as usize].bundles());
+            self.bundles.write_chunk(&self.gpu, first..end, bundles, budget)?;
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            if first == 0 {
-                encoder.clear_buffer(self.cast.counters.raw(), 0, None);
-            }
-            self.timing.pass(&mut encoder, "ray cast", |pass| {
+            self.timing.pass(&mut encoder, stage.label(), |pass| {
                 let uniforms = [&self.frame, &self.tile];
-                let (store, grid, transfer) = (&self.store, &self.grid, &self.transfer);
-                let kernel = job.scene.kernel;
-                self.cast.record(&self.gpu, pass, kernel, uniforms, store, grid, transfer, end - first);
+                let (bundles, store, grid) = (&self.bundles, &self.store, &self.grid);
+                let (gpu, kernel, transfer, count) =
+                    (&self.gpu, job.scene.kernel, &self.transfer, end - first);
+                match stage {
+                    Stage::Analysis => self
+                        .adapt
+                        .record(gpu, pass, kernel, bundles, uniforms, store, grid, transfer, count),
+                    Stage::Cast => {
+                        let plan = adapted.then_some(&self.adapt);
+                        self.cast.record(
+                            gpu, pass, kernel, bundles, uniforms, store, grid, transfer, plan, count,
+                        );
+                    }
+                }
             });
             let begin = Instant::now();
             self.submit(encoder, &mut picture.stats.milliseconds)?;
-            self.pace.learn(end - first, begin.elapsed());
+            self.pace[stage as usize].learn(end - first, begin.elapsed());
             first = end;
         }
-        self.fetch_tile(tile, picture)
+        Ok(())
     }
 
     /// Submits, waits, and adds the time of each stage.
@@ -177,25 +257,27 @@ impl Renderer {
         for (label, time) in stages {
             match label.as_str() {
                 "grid" => times.grid += time,
+                "analysis" => times.analysis += time,
                 _ => times.ray_cast += time,
             }
         }
         Ok(())
     }
 
-    fn fetch_tile(&self, tile: &Tile, picture: &mut Picture) -> Result<(), RenderError> {
+    fn fetch_tile(
+        &self,
+        tile: &Tile,
+        size: GridSize,
+        adapted: bool,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let pixels = self.cast.pixels.read_back(&self.gpu, &mut encoder, tile.bundles() * 64);
-        let counters = self.cast.counters.read_back(&self.gpu, &mut encoder, 1);
         self.gpu.queue.submit([encoder.finish()]);
         let pixels: Vec<[f32; 4]> = pixels.take(&self.gpu)?;
-        let counters: Vec<u32> = counters.take(&self.gpu)?;
-        let words = |low: usize| u64::from(counters[low]) | u64::from(counters[low + 1]) << 32;
-        let evaluations = &mut picture.stats.evaluations;
-        evaluations.full += words(0);
-        evaluations.done += words(0);
-        evaluations.inside += words(2);
         picture.place(tile, &pixels);
+        let counters = self.bundles.read_counters(&self.gpu)?;
+        picture.stats.count(&counters, size.cells, adapted);
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! The stages between particles and picture. Each is a struct that builds its pipelines once and
 //! then records its work; its shader stands beside it.
 
+pub(crate) mod adapt;
 pub(crate) mod cast;
 pub(crate) mod grid;
 #[cfg(test)]

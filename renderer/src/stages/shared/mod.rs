@@ -1,9 +1,11 @@
 //! What several stages' shaders see.
 
+mod bundle;
 mod frame;
 mod store;
 mod transfer;
 
+pub(crate) use bundle::{BUNDLE_BINDINGS, Bundles, Counters};
 pub(crate) use frame::{FrameUniform, TileUniform, pitch, pivot_depth, radius_floor};
 pub(crate) use store::ParticleStore;
 pub(crate) use transfer::TransferTables;
@@ -12,3 +14,6 @@ pub(crate) use transfer::TransferTables;
 pub(crate) const FRAME_WGSL: &str = include_str!("frame.wgsl");
 pub(crate) const KERNEL_WGSL: &str = include_str!("kernel.wgsl");
 pub(crate) const TRANSFER_WGSL: &str = include_str!("transfer.wgsl");
+/// WGSL of the structs and bindings in `bundle.rs`.
+pub(crate) const BUNDLE_WGSL: &str = include_str!("bundle.wgsl");
+pub(crate) const HULL_WGSL: &str = include_str!("hull.wgsl");

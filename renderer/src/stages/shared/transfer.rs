@@ -6,7 +6,7 @@ use crate::error::RenderError;
 use crate::gpu::{Buffer, Gpu};
 use crate::transfer::{ControlPoint, TransferFunction};
 
-/// A row of the node texture (`transfer.wgsl`): three texels.
+/// The first three texels of a row of the node texture (`transfer.wgsl`).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 struct Node {
@@ -21,8 +21,8 @@ struct Node {
     padding: f32,
 }
 
-const TEXELS_PER_NODE: u32 = 3;
-const TEXEL_BYTES: u32 = 16;
+/// Four channels of colour and opacity.
+type Texel = [f32; 4];
 
 /// `BUCKETS` of `transfer.wgsl`.
 const BUCKETS: usize = 256;
@@ -36,7 +36,7 @@ pub(crate) struct TransferTables {
 impl TransferTables {
     pub(crate) fn new(gpu: &Gpu) -> TransferTables {
         TransferTables {
-            nodes: node_texture(gpu, 1).create_view(&Default::default()),
+            nodes: node_texture(gpu, [1, 1]).create_view(&Default::default()),
             buckets: Buffer::storage(gpu, "transfer buckets", 4),
         }
     }
@@ -44,15 +44,17 @@ impl TransferTables {
     pub(crate) fn write(&mut self, gpu: &Gpu, transfer: &TransferFunction) -> Result<(), RenderError> {
         let nodes = nodes(transfer);
         self.buckets.write(gpu, &buckets(&nodes))?;
-        let texture = node_texture(gpu, nodes.len() as u32);
+        let texels = texels(&nodes);
+        let width = (texels.len() / nodes.len()) as u32;
+        let texture = node_texture(gpu, [width, nodes.len() as u32]);
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(TEXELS_PER_NODE * TEXEL_BYTES),
+            bytes_per_row: Some(width * size_of::<Texel>() as u32),
             rows_per_image: None,
         };
         gpu.queue.write_texture(
             texture.as_image_copy(),
-            bytemuck::cast_slice(&nodes),
+            bytemuck::cast_slice(&texels),
             layout,
             texture.size(),
         );
@@ -61,10 +63,10 @@ impl TransferTables {
     }
 }
 
-fn node_texture(gpu: &Gpu, nodes: u32) -> wgpu::Texture {
+fn node_texture(gpu: &Gpu, [width, height]: [u32; 2]) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("transfer nodes"),
-        size: wgpu::Extent3d { width: TEXELS_PER_NODE, height: nodes, depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -72,6 +74,30 @@ fn node_texture(gpu: &Gpu, nodes: u32) -> wgpu::Texture {
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })
+}
+
+/// Rows of the node texture: the node itself, then least and greatest value of runs of 1, 2, 4, ...
+/// nodes from it on, which end at the last node at the latest.
+fn texels(nodes: &[Node]) -> Vec<Texel> {
+    let values: Vec<Texel> = nodes.iter().map(|node| node.value).collect();
+    let mut runs = vec![(values.clone(), values)];
+    while 2 << (runs.len() - 1) <= nodes.len() {
+        let half = 1 << (runs.len() - 1);
+        let (least, greatest) = &runs[runs.len() - 1];
+        runs.push((doubled(least, half, f32::min), doubled(greatest, half, f32::max)));
+    }
+    let row = |(i, node): (usize, &Node)| {
+        let own: [Texel; 3] = bytemuck::cast(*node);
+        let runs = runs.iter().flat_map(move |(least, greatest)| [least[i], greatest[i]]);
+        own.into_iter().chain(runs).collect::<Vec<_>>()
+    };
+    nodes.iter().enumerate().flat_map(row).collect()
+}
+
+/// Extremes of runs of twice the length, from those of runs of length `half`.
+fn doubled(runs: &[Texel], half: usize, extreme: fn(f32, f32) -> f32) -> Vec<Texel> {
+    let later = |i: usize| runs[(i + half).min(runs.len() - 1)];
+    (0..runs.len()).map(|i| std::array::from_fn(|c| extreme(runs[i][c], later(i)[c]))).collect()
 }
 
 /// Control points, continued to u = 0 and to one node beyond u = 1.
@@ -123,6 +149,23 @@ mod tests {
         }
         let left = nodes[node];
         std::array::from_fn(|c| left.value[c] + (u - left.u) * left.inverse_width * left.change[c])
+    }
+
+    #[test]
+    fn runs_hold_their_extremes() {
+        let points: Vec<ControlPoint> = (0..13)
+            .map(|i| ControlPoint { u: i as f32 / 12.0, rgb: [(i * 7 % 13) as f32 / 13.0; 3], opacity: 0.5 })
+            .collect();
+        let nodes = nodes(&TransferFunction::new(&points).unwrap());
+        let texels = texels(&nodes);
+        let width = texels.len() / nodes.len();
+        assert_eq!(width, 3 + 2 * 4, "15 or 16 nodes have runs of 1, 2, 4 and 8");
+        for (i, level) in (0..nodes.len()).flat_map(|i| (0..4).map(move |level| (i, level))) {
+            let run = nodes[i..].iter().take(1 << level).map(|node| node.value[0]);
+            let expected = run.fold([1.0_f32, 0.0], |[a, b], v| [a.min(v), b.max(v)]);
+            let found = [0, 1].map(|end| texels[i * width + 3 + 2 * level + end][0]);
+            assert_eq!(found, expected, "run of {} from {i}", 1 << level);
+        }
     }
 
     #[test]

@@ -2,22 +2,73 @@
 
 // A texture, not a buffer: a texel is one fetch of four numbers. A row a node: the colour and opacity
 // at its u; their change up to the next node; its u, 1/(u of the next node − u) or 0 at a step, and
-// the u of the next node.
+// the u of the next node; then, for runs of 1, 2, 4, ... nodes from this one on, the least and the
+// greatest of their colours and opacities.
 
 const BUCKETS: f32 = 256.0;
 
-// Colour and opacity at u in [0, 1].
-fn transfer_at(u: f32) -> vec4<f32> {
+// The segment between two nodes in which u lies: its first node, and that node's third texel.
+struct Segment {
+    node: u32,
+    place: vec4<f32>,
+}
+
+fn segment_at(u: f32) -> Segment {
     var node = buckets[u32(u * BUCKETS)];
     var place = textureLoad(nodes, vec2(2u, node), 0);
     while place.z <= u {
         node += 1u;
         place = textureLoad(nodes, vec2(2u, node), 0);
     }
-    let value = textureLoad(nodes, vec2(0u, node), 0);
-    let change = textureLoad(nodes, vec2(1u, node), 0);
-    return value + ((u - place.x) * place.y) * change;
+    return Segment(node, place);
 }
+
+fn value_in(segment: Segment, u: f32) -> vec4<f32> {
+    let value = textureLoad(nodes, vec2(0u, segment.node), 0);
+    let change = textureLoad(nodes, vec2(1u, segment.node), 0);
+    return value + ((u - segment.place.x) * segment.place.y) * change;
+}
+
+// Colour and opacity at u in [0, 1].
+fn transfer_at(u: f32) -> vec4<f32> {
+    return value_in(segment_at(u), u);
+}
+
+// Least and greatest of each of four channels.
+struct Extremes {
+    low: vec4<f32>,
+    high: vec4<f32>,
+}
+
+// The first texel of a row in which the extremes of 1, 2, 4, ... nodes from there on stand.
+const EXTREMES: u32 = 3u;
+
+// Bounds of colour and opacity over [low, high] in [0, 1]: at the ends, and at the nodes between
+// them, which two overlapping runs of a power of two cover. Widened by the rounding of `value_in`.
+fn transfer_range(low: f32, high: f32) -> Extremes {
+    let begin = segment_at(low);
+    let end = segment_at(high);
+    let a = value_in(begin, low);
+    let b = value_in(end, high);
+    var least = min(a, b);
+    var greatest = max(a, b);
+    let between = end.node - begin.node;
+    if between > 0u {
+        let level = firstLeadingBit(between);
+        let texel = EXTREMES + 2u * level;
+        let first = begin.node + 1u;
+        let second = end.node + 1u - (1u << level);
+        least = min(least, min(textureLoad(nodes, vec2(texel, first), 0), textureLoad(nodes, vec2(texel, second), 0)));
+        greatest = max(
+            greatest,
+            max(textureLoad(nodes, vec2(texel + 1u, first), 0), textureLoad(nodes, vec2(texel + 1u, second), 0)),
+        );
+    }
+    return Extremes(max(least * (1.0 - ROUNDING), vec4(0.0)), min(greatest * (1.0 + ROUNDING), vec4(1.0)));
+}
+
+// Relative error of a value of the transfer function, and of an opacity.
+const ROUNDING: f32 = 4e-6;
 
 // ln(1 − α), with full relative precision for small α; very negative, but finite, for α = 1.
 fn log_transparency(alpha: f32) -> f32 {

@@ -1,62 +1,26 @@
-// Full-sampling ray casting (HPG 2016, Alg. 2): a workgroup takes a bundle of 8 × 8 rays from front
-// to back, a lane one ray; particles are read once a cell and shared by all rays.
+// Samples of rays through cells (HPG 2016, Alg. 2): particles are read once a cell and shared by the
+// rays of its bundle; each is evaluated only at samples inside its support.
 //
 // Inside a cell, lengths are relative to the middle of the cell on the bundle's axis, in units of
 // that middle's depth z_c: a squared distance then never cancels against the distance to the eye.
 
-struct Chunk {
-    // Turns of the tile to cast: the first, and the one after the last.
-    first_turn: u32,
-    end_turn: u32,
-    // Turn t is that of bundle t·stride mod the number of bundles.
-    stride: u32,
-    padding: u32,
-}
-
-@group(0) @binding(0) var<uniform> frame: Frame;
-@group(0) @binding(1) var<uniform> tile: Tile;
-@group(0) @binding(2) var<uniform> chunk: Chunk;
-@group(0) @binding(3) var<storage, read> projected: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> weights: array<f32>;
-@group(0) @binding(5) var<storage, read> quantities: array<f32>;
-// Where the references of each cell end; those of the first begin at 0.
-@group(0) @binding(6) var<storage, read> cells: array<u32>;
-@group(0) @binding(7) var<storage, read> pairs: array<u32>;
-// Depth of the middle of each layer of cells, from the eye and from the pivot.
-@group(0) @binding(8) var<storage, read> layer_depth: array<vec2<f32>>;
-@group(0) @binding(9) var<storage, read> buckets: array<u32>;
 // Premultiplied linear RGB and transparency, 64 pixels a bundle.
-@group(0) @binding(10) var<storage, read_write> pixels: array<vec4<f32>>;
-// Evaluations and those with a weight above zero: low and high words.
-@group(0) @binding(11) var<storage, read_write> counters: array<atomic<u32>, 4>;
-@group(0) @binding(12) var nodes: texture_2d<f32>;
+@group(0) @binding(12) var<storage, read_write> pixels: array<vec4<f32>>;
 
 override COUNT_INSIDE: bool = false;
 
-const LANES: u32 = 64u;
 // A ray that transmits less than this has ended.
 const OPAQUE: f32 = 1e-5;
-// Quantity of a particle that is left out (Quantity::REJECTED).
-const REJECTED: f32 = 1e38;
 
 // Position relative to the cell, and 1/h².
 var<workgroup> balls: array<vec4<f32>, LANES>;
 // Weight, and weight times quantity.
 var<workgroup> charges: array<vec2<f32>, LANES>;
 var<workgroup> open_rays: atomic<u32>;
-var<workgroup> tally: array<atomic<u32>, 4>;
 
 struct Ray {
     colour: vec3<f32>,
     transparency: f32,
-}
-
-// Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact
-// block of pixels and mostly meet the same particles. (Picture::place undoes this.)
-fn place_in_bundle(lane: u32) -> vec2<u32> {
-    let x = (lane & 1u) | (lane >> 1u & 2u) | (lane >> 2u & 4u);
-    let y = (lane >> 1u & 1u) | (lane >> 2u & 2u) | (lane >> 3u & 4u);
-    return vec2(x, y);
 }
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
@@ -196,7 +160,8 @@ fn cast_cell(
         }
         workgroupBarrier();
     }
-    add_to_tally(done, inside);
+    add_to_tally(0u, done);
+    if COUNT_INSIDE { add_to_tally(2u, inside); }
 
     let path = frame.slab_depth;
     let scale = depth * sqrt(direction_squared) * frame.path_scale;
@@ -209,82 +174,4 @@ fn cast_cell(
 
 fn positive(k: vec4<f32>) -> u32 {
     return u32(dot(select(vec4(0.0), vec4(1.0), k > vec4(0.0)), vec4(1.0)));
-}
-
-// Low and high halves apart: the sums of 64 lanes stay below 2³².
-fn add_to_tally(done: u32, inside: u32) {
-    atomicAdd(&tally[0], done & 0xffffu);
-    atomicAdd(&tally[1], done >> 16u);
-    if COUNT_INSIDE {
-        atomicAdd(&tally[2], inside & 0xffffu);
-        atomicAdd(&tally[3], inside >> 16u);
-    }
-}
-
-// Adds a cell's tally to a counter of two words, and clears it.
-fn settle_tally(entry: u32) {
-    let low_half = atomicExchange(&tally[entry], 0u);
-    let high_half = atomicExchange(&tally[entry + 1u], 0u);
-    let shifted = high_half << 16u;
-    let low = low_half + shifted;
-    let carry = select(0u, 1u, low < shifted);
-    let before = atomicAdd(&counters[entry], low);
-    let overflow = select(0u, 1u, before + low < before);
-    let high = (high_half >> 16u) + carry + overflow;
-    if high > 0u {
-        atomicAdd(&counters[entry + 1u], high);
-    }
-}
-
-@compute @workgroup_size(LANES)
-fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let turn = chunk.first_turn + flat(workgroup);
-    if turn >= chunk.end_turn {
-        return;
-    }
-    let index = (turn * chunk.stride) % (tile.count.x * tile.count.y);
-    let bundle = tile.first + vec2(index % tile.count.x, index / tile.count.x);
-    let corner = vec2<f32>(bundle * BUNDLE_SIDE);
-    let in_bundle = vec2<f32>(place_in_bundle(lane));
-    let axis = ray_slope(frame, corner + 3.5);
-    // Exact: half pixels times the pitch.
-    let from_axis = vec2(in_bundle.x - 3.5, 3.5 - in_bundle.y) * frame.pitch;
-    let slope = axis + from_axis;
-
-    let pixel = index * LANES + lane;
-    let in_picture = all(corner + in_bundle < vec2<f32>(frame.size));
-    var ray = Ray(vec3(0.0), 1.0);
-    if tile.first_layer > 0u {
-        let so_far = pixels[pixel];
-        ray = Ray(so_far.rgb, so_far.w);
-    }
-    let row = index * tile.layers;
-    var first = 0u;
-    if row > 0u {
-        first = cells[row - 1u];
-    }
-    for (var layer = 0u; layer < tile.layers; layer += 1u) {
-        let end = cells[row + layer];
-        if end > first && end <= tile.pair_capacity {
-            let cell = cast_cell(layer, first, end, axis, slope, from_axis, lane);
-            ray.colour += ray.transparency * cell.rgb;
-            ray.transparency *= 1.0 - cell.a;
-            if lane == 0u {
-                atomicStore(&open_rays, 0u);
-            }
-            workgroupBarrier();
-            if in_picture && ray.transparency > OPAQUE {
-                atomicAdd(&open_rays, 1u);
-            }
-            if lane == 0u {
-                settle_tally(0u);
-                if COUNT_INSIDE { settle_tally(2u); }
-            }
-            if workgroupUniformLoad(&open_rays) == 0u {
-                break;
-            }
-        }
-        first = end;
-    }
-    pixels[pixel] = vec4(ray.colour, ray.transparency);
 }

@@ -1,67 +1,64 @@
-//! Full-sampling ray casting (HPG 2016, Alg. 2).
+//! What the shaders share that take a workgroup for each bundle (`bundle.wgsl`).
 
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 
-use super::grid::Grid;
-use super::shared::{FRAME_WGSL, KERNEL_WGSL, ParticleStore, TRANSFER_WGSL, TransferTables};
+use super::{ParticleStore, TransferTables};
 use crate::camera::Slices;
 use crate::error::RenderError;
-use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
-use crate::kernel::Kernel;
-use crate::plan::Tile;
+use crate::gpu::{Access, Buffer, Gpu};
+use crate::stages::grid::Grid;
 
-/// `Chunk` of `cast.wgsl`.
+/// `Chunk` of `bundle.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 struct Chunk {
     first_turn: u32,
     end_turn: u32,
     stride: u32,
-    padding: u32,
+    budget: f32,
 }
 
-pub(crate) struct Cast {
-    /// One a kernel.
-    pipelines: Vec<Pipeline>,
+/// The first bindings of these shaders, in their order.
+pub(crate) const BUNDLE_BINDINGS: [Access; 12] = {
+    use Access::{Read, Texture, Uniform, Write};
+    [Uniform, Uniform, Uniform, Read, Read, Read, Read, Read, Read, Read, Texture, Write]
+};
+
+/// Which bundles a submission takes, the depths of the layers, and what is counted.
+pub(crate) struct Bundles {
     chunk: Buffer,
     /// Depth of the middle of each layer of cells, from the eye and from the pivot, in device units.
     layer_depth: Buffer,
-    /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
-    pub pixels: Buffer,
-    /// Evaluations, and those with a weight above zero where they are counted: low and high words.
-    pub counters: Buffer,
+    counters: Buffer,
 }
 
-impl Cast {
-    /// `count_inside`: count evaluations with a weight above zero too, which costs time.
-    pub(crate) fn new(gpu: &Gpu, count_inside: bool) -> Cast {
-        use Access::{Read, Texture, Uniform, Write};
-        let pipeline = |kernel: &Kernel| {
-            Pipeline::new(
-                gpu,
-                &PipelineDescription {
-                    label: "cast",
-                    sources: &[FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")],
-                    entry_point: "cast_rays",
-                    constants: &[
-                        ("KERNEL", f64::from(kernel.code())),
-                        ("COUNT_INSIDE", f64::from(u8::from(count_inside))),
-                    ],
-                    bindings: &[
-                        Uniform, Uniform, Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Write,
-                        Texture,
-                    ],
-                },
-            )
-        };
-        Cast {
-            pipelines: Kernel::ALL.iter().map(pipeline).collect(),
-            chunk: Buffer::uniform::<Chunk>(gpu, "cast chunk"),
+/// What the shaders counted since the last clearing.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counters {
+    /// Evaluations of the casting, and those of them with a weight above zero where that is counted.
+    pub evaluations: u64,
+    pub inside: u64,
+    /// Evaluations of the analysis.
+    pub bounds: u64,
+    /// Largest charge to any ray.
+    pub largest_charge: f32,
+    /// Cells sampled as a whole or in part, shown without a sample, and with nothing to be seen.
+    pub full: u64,
+    pub mixed: u64,
+    pub super_pixel: u64,
+    pub transparent: u64,
+}
+
+const COUNTER_WORDS: u64 = 16;
+
+impl Bundles {
+    pub(crate) fn new(gpu: &Gpu) -> Bundles {
+        Bundles {
+            chunk: Buffer::uniform::<Chunk>(gpu, "chunk of bundles"),
             layer_depth: Buffer::storage(gpu, "layer depths", 8),
-            pixels: Buffer::storage(gpu, "pixels", 16),
-            counters: Buffer::storage(gpu, "evaluation counters", 16),
+            counters: Buffer::storage(gpu, "counters", 4 * COUNTER_WORDS),
         }
     }
 
@@ -80,39 +77,30 @@ impl Cast {
         self.layer_depth.write(gpu, &depths)
     }
 
-    /// Makes room for the pixels of `tile`.
-    pub(crate) fn reserve(&mut self, gpu: &Gpu, tile: &Tile) -> Result<(), RenderError> {
-        self.pixels.reserve(gpu, tile.bundles() * 64)
-    }
-
-    /// Says which bundles of the tile the next submission casts: those whose `turns` it is.
+    /// Says which of the tile's `bundles` the next submission takes: those whose `turns` it is; and
+    /// what may be charged to their rays.
     pub(crate) fn write_chunk(
         &mut self,
         gpu: &Gpu,
         turns: Range<u64>,
         bundles: u64,
+        budget: f32,
     ) -> Result<(), RenderError> {
         // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
         // its caches. A software adapter gives each thread a stretch of them beforehand.
         let stride = if gpu.is_software() { spread(bundles) } else { 1 };
-        let chunk = Chunk { first_turn: turns.start as u32, end_turn: turns.end as u32, stride, padding: 0 };
+        let chunk = Chunk { first_turn: turns.start as u32, end_turn: turns.end as u32, stride, budget };
         self.chunk.write(gpu, &[chunk])
     }
 
-    /// Records the casting of `bundles` bundles: as many as [`Cast::write_chunk`] named.
-    #[expect(clippy::too_many_arguments, reason = "one for each thing the shader reads")]
-    pub(crate) fn record(
-        &self,
-        gpu: &Gpu,
-        pass: &mut wgpu::ComputePass,
-        kernel: Kernel,
-        uniforms: [&Buffer; 2],
-        store: &ParticleStore,
-        grid: &Grid,
-        transfer: &TransferTables,
-        bundles: u64,
-    ) {
-        let [frame, tile] = uniforms;
+    /// Resources for [`BUNDLE_BINDINGS`].
+    pub(crate) fn bindings<'a>(
+        &'a self,
+        [frame, tile]: [&'a Buffer; 2],
+        store: &'a ParticleStore,
+        grid: &'a Grid,
+        transfer: &'a TransferTables,
+    ) -> Vec<wgpu::BindingResource<'a>> {
         let mut resources: Vec<_> = [
             frame,
             tile,
@@ -124,17 +112,38 @@ impl Cast {
             &grid.pairs,
             &self.layer_depth,
             &transfer.buckets,
-            &self.pixels,
-            &self.counters,
         ]
         .map(Buffer::binding)
         .into();
         resources.push(wgpu::BindingResource::TextureView(&transfer.nodes));
-        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
+        resources.push(self.counters.binding());
+        resources
+    }
+
+    pub(crate) fn clear_counters(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(self.counters.raw(), 0, None);
+    }
+
+    pub(crate) fn read_counters(&self, gpu: &Gpu) -> Result<Counters, RenderError> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let words = self.counters.read_back(gpu, &mut encoder, 1);
+        gpu.queue.submit([encoder.finish()]);
+        let words: Vec<u32> = words.take(gpu)?;
+        let wide = |low: usize| u64::from(words[low]) | u64::from(words[low + 1]) << 32;
+        Ok(Counters {
+            evaluations: wide(0),
+            inside: wide(2),
+            bounds: wide(4),
+            largest_charge: f32::from_bits(words[6]),
+            full: words[8].into(),
+            mixed: words[9].into(),
+            super_pixel: words[10].into(),
+            transparent: words[11].into(),
+        })
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes() + self.layer_depth.bytes()
+        self.layer_depth.bytes() + self.counters.bytes()
     }
 }
 
@@ -154,6 +163,7 @@ fn gcd(a: u64, b: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL};
 
     #[test]
     fn every_bundle_has_its_turn_once() {
@@ -171,7 +181,7 @@ mod tests {
 
     #[test]
     fn chunks_lie_as_the_shader_expects() {
-        let source = [FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")].concat();
-        check_layout!(&source, "Chunk", Chunk, first_turn, end_turn, stride, padding);
+        let source = [FRAME_WGSL, BUNDLE_WGSL].concat();
+        check_layout!(&source, "Chunk", Chunk, first_turn, end_turn, stride, budget);
     }
 }

@@ -1,0 +1,48 @@
+// Full sampling: a workgroup takes a bundle of 8 × 8 rays from front to back, a lane one ray.
+
+@compute @workgroup_size(LANES)
+fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let turn = chunk.first_turn + flat(workgroup);
+    if turn >= chunk.end_turn {
+        return;
+    }
+    let index = bundle_of(turn);
+    let corner = corner_of(index);
+    let in_bundle = vec2<f32>(place_in_bundle(lane));
+    let axis = ray_slope(frame, corner + 3.5);
+    let from_axis = ray_from_axis(lane);
+    let slope = axis + from_axis;
+
+    let pixel = index * LANES + lane;
+    let in_picture = all(corner + in_bundle < vec2<f32>(frame.size));
+    var ray = Ray(vec3(0.0), 1.0);
+    if tile.first_layer > 0u {
+        let so_far = pixels[pixel];
+        ray = Ray(so_far.rgb, so_far.w);
+    }
+    var first = first_reference(index);
+    for (var layer = 0u; layer < tile.layers; layer += 1u) {
+        let end = cells[index * tile.layers + layer];
+        if end > first && end <= tile.pair_capacity {
+            let cell = cast_cell(layer, first, end, axis, slope, from_axis, lane);
+            ray.colour += ray.transparency * cell.rgb;
+            ray.transparency *= 1.0 - cell.a;
+            if lane == 0u {
+                atomicStore(&open_rays, 0u);
+            }
+            workgroupBarrier();
+            if in_picture && ray.transparency > OPAQUE {
+                atomicAdd(&open_rays, 1u);
+            }
+            if lane == 0u {
+                settle_tally(0u, EVALUATIONS);
+                if COUNT_INSIDE { settle_tally(2u, EVALUATIONS_INSIDE); }
+            }
+            if workgroupUniformLoad(&open_rays) == 0u {
+                break;
+            }
+        }
+        first = end;
+    }
+    pixels[pixel] = vec4(ray.colour, ray.transparency);
+}

@@ -1,0 +1,97 @@
+// What the shaders share that take a workgroup of 64 lanes for each bundle of 8 × 8 rays.
+
+struct Chunk {
+    // Turns of the tile to cast: the first, and the one after the last.
+    first_turn: u32,
+    end_turn: u32,
+    // Turn t is that of bundle t·stride mod the number of bundles.
+    stride: u32,
+    // What may be charged to a ray of an adaptive picture.
+    budget: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var<uniform> tile: Tile;
+@group(0) @binding(2) var<uniform> chunk: Chunk;
+@group(0) @binding(3) var<storage, read> projected: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> weights: array<f32>;
+@group(0) @binding(5) var<storage, read> quantities: array<f32>;
+// Where the references of each cell end; those of the first begin at 0.
+@group(0) @binding(6) var<storage, read> cells: array<u32>;
+@group(0) @binding(7) var<storage, read> pairs: array<u32>;
+// Depth of the middle of each layer of cells, from the eye and from the pivot.
+@group(0) @binding(8) var<storage, read> layer_depth: array<vec2<f32>>;
+@group(0) @binding(9) var<storage, read> buckets: array<u32>;
+@group(0) @binding(10) var nodes: texture_2d<f32>;
+// `Counters` of bundle.rs; the constants below are places in it.
+@group(0) @binding(11) var<storage, read_write> counters: array<atomic<u32>, 16>;
+
+// Places of counters of two words, low and high, and of single ones.
+const EVALUATIONS: u32 = 0u;
+const EVALUATIONS_INSIDE: u32 = 2u;
+const EVALUATIONS_OF_BOUNDS: u32 = 4u;
+// Largest charge to any ray, as the bits of an f32.
+const LARGEST_CHARGE: u32 = 6u;
+// Cells in which all, some or none of what is seen was sampled, and cells with nothing to be seen.
+const CELLS_FULL: u32 = 8u;
+const CELLS_MIXED: u32 = 9u;
+const CELLS_SUPER_PIXEL: u32 = 10u;
+const CELLS_TRANSPARENT: u32 = 11u;
+
+const LANES: u32 = 64u;
+// Quantity of a particle that is left out (Quantity::REJECTED).
+const REJECTED: f32 = 1e38;
+
+// Sums of a cell over the lanes, low and high halves apart: those of 64 lanes stay below 2³².
+var<workgroup> tally: array<atomic<u32>, 4>;
+
+// The bundle whose turn it is: its number in the tile.
+fn bundle_of(turn: u32) -> u32 {
+    return (turn * chunk.stride) % (tile.count.x * tile.count.y);
+}
+
+// First pixel of a bundle of the tile.
+fn corner_of(index: u32) -> vec2<f32> {
+    let bundle = tile.first + vec2(index % tile.count.x, index / tile.count.x);
+    return vec2<f32>(bundle * BUNDLE_SIDE);
+}
+
+// Where the references of the first cell of a bundle begin.
+fn first_reference(index: u32) -> u32 {
+    let row = index * tile.layers;
+    return select(cells[max(row, 1u) - 1u], 0u, row == 0u);
+}
+
+// Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact
+// block of pixels and mostly meet the same particles. (Picture::place undoes this.)
+fn place_in_bundle(lane: u32) -> vec2<u32> {
+    let x = (lane & 1u) | (lane >> 1u & 2u) | (lane >> 2u & 4u);
+    let y = (lane >> 1u & 1u) | (lane >> 2u & 2u) | (lane >> 3u & 4u);
+    return vec2(x, y);
+}
+
+// Distance of a lane's ray from the bundle's axis, in slope. Exact: half pixels times the pitch.
+fn ray_from_axis(lane: u32) -> vec2<f32> {
+    let place = vec2<f32>(place_in_bundle(lane));
+    return vec2(place.x - 3.5, 3.5 - place.y) * frame.pitch;
+}
+
+fn add_to_tally(entry: u32, sum: u32) {
+    atomicAdd(&tally[entry], sum & 0xffffu);
+    atomicAdd(&tally[entry + 1u], sum >> 16u);
+}
+
+// Adds a cell's tally to a counter of two words, and clears it.
+fn settle_tally(entry: u32, counter: u32) {
+    let low_half = atomicExchange(&tally[entry], 0u);
+    let high_half = atomicExchange(&tally[entry + 1u], 0u);
+    let shifted = high_half << 16u;
+    let low = low_half + shifted;
+    let carry = select(0u, 1u, low < shifted);
+    let before = atomicAdd(&counters[counter], low);
+    let overflow = select(0u, 1u, before + low < before);
+    let high = (high_half >> 16u) + carry + overflow;
+    if high > 0u {
+        atomicAdd(&counters[counter + 1u], high);
+    }
+}

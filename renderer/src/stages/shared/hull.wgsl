@@ -1,0 +1,107 @@
+// What a stretch of a few rays through one brick can do to the light behind it.
+//
+// A brick is 2 × 2 rays × 4 slices; a cell has 16 columns of them, 4 deep. Lane l of a bundle's
+// workgroup has the brick of column l mod 16 that is l/16-th from the front. Columns follow the same
+// Morton curve as rays, so that the rays of column c are those of lanes 4c to 4c + 3.
+//
+// A brick's values are a word: bounds of the quantity at all its samples, in [0, 1], the lower one in
+// the low 16 bits, the upper one in the next 15; and on top whether every sample meets a particle.
+
+const COLUMNS: u32 = 16u;
+const BRICK_DEPTH: u32 = 4u;
+// No sample meets a particle: a word of its own, never inverted bounds.
+const EMPTY: u32 = 0x0000ffffu;
+const COVERED: u32 = 0x80000000u;
+const LOW_STEPS: f32 = 65535.0;
+const HIGH_STEPS: f32 = 32767.0;
+
+// `low` and `high` in [0, 1], rounded outward.
+fn pack_values(low: f32, high: f32, covered: bool) -> u32 {
+    let least = u32(floor(low * LOW_STEPS * (1.0 - ROUNDING)));
+    let greatest = min(u32(ceil(high * HIGH_STEPS * (1.0 + ROUNDING))), u32(HIGH_STEPS));
+    return least | greatest << 16u | select(0u, COVERED, covered);
+}
+
+fn opacity_and_colours(values: u32) -> Extremes {
+    let low = f32(values & 0xffffu) / LOW_STEPS;
+    let high = f32(values >> 16u & 0x7fffu) / HIGH_STEPS;
+    return transfer_range(min(low, high), high);
+}
+
+struct Hull {
+    // The middle of what the brick may show: premultiplied colour, and opacity.
+    middle: vec4<f32>,
+    // By how much full sampling may differ from that in any channel, whatever lies behind.
+    charge: f32,
+    // Upper bound of the transparency.
+    open: f32,
+}
+
+// The hull of a brick with the given values. `paths`: bounds of the length of the rays inside, in
+// reference lengths.
+//
+// With colour c and transparency t between bounds, the response c + t·(b − c) to light b from behind
+// has the bounds of `at_black` (b = 0) and `at_white` (b = 1); four slices alike compose to the same
+// form with t⁴, so the brick counts as one. The upper bound is convex in b and the lower one concave,
+// and the middle is linear, so the two ends decide.
+fn hull_of(values: u32, paths: vec2<f32>) -> Hull {
+    if values == EMPTY {
+        return Hull(vec4(0.0), 0.0, 1.0);
+    }
+    let transfer = opacity_and_colours(values);
+    let covered = (values & COVERED) != 0u;
+    let thick = min(path_opacity(transfer.high.w, paths.y) * (1.0 + ROUNDING), 1.0);
+    let thin = select(0.0, path_opacity(transfer.low.w, paths.x) * (1.0 - ROUNDING), covered);
+    let opacity = 0.5 * (thick + thin);
+
+    let at_black = Band(transfer.low.rgb * thin, transfer.high.rgb * thick);
+    let at_white = Band(
+        1.0 - thick * (1.0 - transfer.low.rgb),
+        1.0 - thin * (1.0 - transfer.high.rgb),
+    );
+    // A colour that serves both ends best, with the one transparency that all channels share.
+    let least = min(at_black.low, at_white.low - (1.0 - opacity));
+    let greatest = max(at_black.high, at_white.high - (1.0 - opacity));
+    let colour = clamp(0.5 * (least + greatest), vec3(0.0), vec3(opacity));
+    let off = max(greatest - colour, colour - least);
+    let charge = max(max(off.x, max(off.y, off.z)), 0.5 * (thick - thin));
+    return Hull(vec4(colour, opacity), select(charge, 0.0, thick == 0.0), 1.0 - thin);
+}
+
+struct Band {
+    low: vec3<f32>,
+    high: vec3<f32>,
+}
+
+// Bounds of the length of a brick's rays inside it, in reference lengths per unit of depth of the
+// cell's middle. `slope`: of the column's axis.
+fn paths_of(brick_layer: u32, slope: vec2<f32>) -> vec2<f32> {
+    let depth = dot(frame.slab_depth[brick_layer], vec4(1.0)) * frame.path_scale;
+    let nearest = max(abs(slope) - 0.5 * frame.pitch, vec2(0.0));
+    let farthest = abs(slope) + 0.5 * frame.pitch;
+    let lengths = vec2(length(vec3(nearest, 1.0)), length(vec3(farthest, 1.0)));
+    return depth * lengths * vec2(1.0 - ROUNDING, 1.0 + ROUNDING);
+}
+
+// The column's axis, in slope from that of the bundle.
+fn column_from_axis(column: u32) -> vec2<f32> {
+    let place = vec2<f32>(place_in_bundle(column));
+    return vec2(2.0 * place.x - 3.0, 3.0 - 2.0 * place.y) * frame.pitch;
+}
+
+// Whether any ray of a column belongs to the picture.
+fn column_in_picture(corner: vec2<f32>, column: u32) -> bool {
+    return all(corner + 2.0 * vec2<f32>(place_in_bundle(column)) < vec2<f32>(frame.size));
+}
+
+// Scores, charge for each particle saved, fall into classes of half an octave.
+const CLASSES: u32 = 64u;
+
+fn class_of(charge: f32, particles: f32) -> u32 {
+    return u32(clamp(2.0 * log2(charge / particles) + 62.0, 0.0, f32(CLASSES - 1u)));
+}
+
+// Whether nothing with values in these bounds is seen at all.
+fn is_transparent(values: u32) -> bool {
+    return values == EMPTY || opacity_and_colours(values).high.w == 0.0;
+}
