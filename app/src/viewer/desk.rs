@@ -48,6 +48,8 @@ pub struct Desk {
     pub(super) side_panel: bool,
     pub(super) render: RenderThread,
     pub orders: Vec<Order>,
+    /// When to draw the next frame although nothing happens.
+    pub due: Option<Instant>,
     dialogs: Dialogs,
     done: (mpsc::Sender<Done>, mpsc::Receiver<Done>),
     counting: bool,
@@ -73,6 +75,7 @@ impl Desk {
             side_panel: true,
             render: RenderThread::spawn(options.gpu.clone(), Wake::clone(&wake)),
             orders: Vec::new(),
+            due: None,
             dialogs: Dialogs::new(Wake::clone(&wake)),
             done: mpsc::channel(),
             counting: false,
@@ -110,6 +113,8 @@ impl Desk {
             self.render.submit(job);
         }
         self.count();
+        // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
+        self.due = self.session.due(now);
         self.tell(ui.ctx());
     }
 
@@ -130,11 +135,6 @@ impl Desk {
                 eprintln!("event: {event}");
             }
         }
-    }
-
-    /// When to draw the next frame although nothing happens.
-    pub fn due(&self) -> Option<Instant> {
-        self.session.due(Instant::now())
     }
 
     pub fn title(&self) -> String {

@@ -196,7 +196,7 @@ impl Open {
             self.window.request_redraw();
         }
         let asked = Instant::now().checked_add(delay).filter(|_| delay < Duration::from_secs(3600));
-        self.next = [asked, self.desk.due()].into_iter().flatten().min();
+        self.next = [asked, self.desk.due].into_iter().flatten().min();
         Ok(())
     }
 }
