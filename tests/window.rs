@@ -1,183 +1,22 @@
 //! The real window, driven by a real mouse and keyboard under Xvfb, with whatever Vulkan there is.
 
-use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+#[path = "window/desktop.rs"]
+mod desktop;
+#[cfg(unix)]
+#[path = "window/dialogs.rs"]
+mod dialogs;
+#[path = "support/files.rs"]
+mod files;
+#[path = "window/harness.rs"]
+mod harness;
+#[path = "window/system.rs"]
+mod system;
+
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use renderer::View;
-
-/// Software Vulkan on a busy machine takes its time.
-const PATIENCE: Duration = Duration::from_secs(240);
-
-/// Ends a process with the test, whatever becomes of the test.
-struct Guard(Child);
-
-impl Drop for Guard {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-/// The program in a window of its own display.
-struct Window {
-    program: Guard,
-    lines: Receiver<String>,
-    /// Everything it has written so far.
-    said: Vec<String>,
-    display: String,
-    _server: Guard,
-}
-
-fn installed(program: &str) -> bool {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
-}
-
-/// Where cargo puts the program; built if it is not there.
-fn binary() -> PathBuf {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments = ["build", "-p", "sphcast", "--bin", "sphcast", "--message-format", "json"];
-    let output = Command::new(cargo).args(arguments).stderr(Stdio::inherit()).output().unwrap();
-    assert!(output.status.success(), "the program does not build");
-    let text = String::from_utf8(output.stdout).unwrap();
-    let executable = text.lines().rev().find_map(|line| {
-        let message: serde_json::Value = serde_json::from_str(line).ok()?;
-        Some(PathBuf::from(message.get("executable")?.as_str()?))
-    });
-    executable.expect("cargo names the program")
-}
-
-/// An X server on a display that nobody has.
-fn server() -> (Guard, String) {
-    let mut server = Command::new("Xvfb")
-        .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut number = String::new();
-    BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
-    (Guard(server), format!(":{}", number.trim()))
-}
-
-impl Window {
-    fn open(folder: &Path, arguments: &[&str]) -> Window {
-        let (server, display) = server();
-        let mut program = Command::new(binary())
-            .args(arguments)
-            .arg("--log-events")
-            .current_dir(folder)
-            .env("DISPLAY", &display)
-            .env_remove("WAYLAND_DISPLAY")
-            .env_remove("WAYLAND_SOCKET")
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let errors = BufReader::new(program.stderr.take().unwrap());
-        let (sender, lines) = channel();
-        std::thread::spawn(move || {
-            errors.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
-        });
-        let mut window =
-            Window { program: Guard(program), lines, said: Vec::new(), display, _server: server };
-        window.wait_for("picture");
-        // Without a window manager, nobody else gives it the keyboard.
-        let number = window.tool(&["search", "--name", "sphcast"]);
-        let number = number.lines().last().expect("a window").to_owned();
-        window.tool(&["windowsize", "--sync", &number, "900", "600"]);
-        window.tool(&["windowfocus", &number]);
-        window.wait_for("area timeline 16 550");
-        window
-    }
-
-    /// Runs xdotool and returns what it writes.
-    fn tool(&self, arguments: &[&str]) -> String {
-        let output = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).output().unwrap();
-        assert!(output.status.success(), "xdotool {arguments:?}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    /// Waits for an event that begins with `beginning` and returns the rest of it.
-    fn wait_for(&mut self, beginning: &str) -> String {
-        let limit = Instant::now() + PATIENCE;
-        loop {
-            let left = limit.saturating_duration_since(Instant::now());
-            let line = match self.lines.recv_timeout(left) {
-                Ok(line) => line,
-                Err(RecvTimeoutError::Timeout) => panic!("no `{beginning}` after {:#?}", self.said),
-                Err(RecvTimeoutError::Disconnected) => panic!("the program ended after {:#?}", self.said),
-            };
-            self.said.push(line.clone());
-            if let Some(event) = line.strip_prefix("event: ")
-                && let Some(rest) = event.strip_prefix(beginning)
-            {
-                return rest.trim().to_owned();
-            }
-        }
-    }
-
-    /// The last known place of an area: x, y, width, height.
-    fn area(&self, name: &str) -> [i32; 4] {
-        let beginning = format!("event: area {name} ");
-        let place = self.said.iter().rev().find_map(|line| line.strip_prefix(&beginning)).expect(name);
-        let numbers: Vec<i32> = place.split(' ').map(|number| number.parse().unwrap()).collect();
-        numbers.try_into().unwrap()
-    }
-
-    /// A place inside an area, in shares of its sides.
-    fn place(&self, name: &str, across: f64, down: f64) -> [String; 2] {
-        let [x, y, width, height] = self.area(name).map(f64::from);
-        [x + across * width, y + down * height].map(|number| format!("{number:.0}"))
-    }
-
-    fn point(&self, [x, y]: &[String; 2]) {
-        self.tool(&["mousemove", "--sync", x, y]);
-        std::thread::sleep(Duration::from_millis(60));
-    }
-
-    fn drag(&self, name: &str, from: [f64; 2], to: [f64; 2]) {
-        self.point(&self.place(name, from[0], from[1]));
-        self.tool(&["mousedown", "1"]);
-        for step in 1..=6 {
-            let s = f64::from(step) / 6.0;
-            let between = |axis: usize| from[axis] + s * (to[axis] - from[axis]);
-            self.point(&self.place(name, between(0), between(1)));
-        }
-        self.tool(&["mouseup", "1"]);
-    }
-
-    fn key(&self, keys: &str) {
-        self.tool(&["key", keys]);
-    }
-
-    /// Saves picture and view by the shortcut; returns their paths in `folder`.
-    fn save(&mut self, folder: &Path) -> (PathBuf, View) {
-        self.key("ctrl+shift+e");
-        let mut paths = Vec::new();
-        while paths.len() < 2 {
-            paths.push(self.wait_for("saved"));
-        }
-        let path = |ending: &str| folder.join(paths.iter().find(|path| path.ends_with(ending)).unwrap());
-        let view = std::fs::read_to_string(path("json")).unwrap();
-        (path("png"), View::from_json(&view).unwrap())
-    }
-}
-
-/// Why the tests of this file cannot run here.
-fn missing() -> Option<String> {
-    let tools = ["Xvfb", "xdotool"];
-    let missing: Vec<&str> = tools.into_iter().filter(|tool| !installed(tool)).collect();
-    let gpu = renderer::Gpu::new(&renderer::GpuOptions::default()).err();
-    match (missing.is_empty(), gpu) {
-        (false, _) => Some(format!("{} not installed", missing.join(" and "))),
-        (true, Some(error)) => Some(error.to_string()),
-        (true, None) => None,
-    }
-}
+use harness::{PATIENCE, Window, binary, missing};
 
 #[test]
 fn play_orbit_edit_and_save() {

@@ -48,13 +48,16 @@ pub struct Desk {
     pub(super) side_panel: bool,
     pub(super) render: RenderThread,
     pub orders: Vec<Order>,
+    /// When to draw the next frame although nothing happens.
+    pub due: Option<Instant>,
     dialogs: Dialogs,
     done: (mpsc::Sender<Done>, mpsc::Receiver<Done>),
     counting: bool,
     finding: bool,
     gpu: GpuOptions,
     wake: Wake,
-    log_events: bool,
+    /// Whether a script follows what happens.
+    pub log_events: bool,
     areas: Areas,
 }
 
@@ -72,6 +75,7 @@ impl Desk {
             side_panel: true,
             render: RenderThread::spawn(options.gpu.clone(), Wake::clone(&wake)),
             orders: Vec::new(),
+            due: None,
             dialogs: Dialogs::new(Wake::clone(&wake)),
             done: mpsc::channel(),
             counting: false,
@@ -109,6 +113,8 @@ impl Desk {
             self.render.submit(job);
         }
         self.count();
+        // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
+        self.due = self.session.due(now);
         self.tell(ui.ctx());
     }
 
@@ -129,11 +135,6 @@ impl Desk {
                 eprintln!("event: {event}");
             }
         }
-    }
-
-    /// When to draw the next frame although nothing happens.
-    pub fn due(&self) -> Option<Instant> {
-        self.session.due(Instant::now())
     }
 
     pub fn title(&self) -> String {
@@ -194,7 +195,7 @@ impl Desk {
                 }
                 Done::Found(Err(text)) => {
                     self.finding = false;
-                    self.session.messages.error(text);
+                    self.session.complain(text);
                 }
                 Done::ViewRead(path, Ok(view)) => {
                     self.session.adopt(*view);
@@ -206,7 +207,7 @@ impl Desk {
                     self.session.log(format!("saved {}", path.display()));
                 }
                 Done::ViewRead(_, Err(error)) | Done::ViewSaved(_, Err(error)) => {
-                    self.session.messages.error(format!("{error:#}"));
+                    self.session.complain(format!("{error:#}"));
                 }
                 Done::Counted(analysis) => {
                     self.counting = false;
@@ -219,11 +220,12 @@ impl Desk {
     fn take_outcomes(&mut self) {
         match self.dialogs.poll() {
             Some(Outcome::Chosen(purpose, paths)) => self.chosen(purpose, paths),
-            Some(Outcome::Unavailable) => self.session.messages.error(
+            Some(Outcome::Unavailable) => self.session.complain(
                 "No file dialog could be opened: install xdg-desktop-portal or zenity, drop files on the \
                  window, name them on the command line, or save with Ctrl+Shift+E",
             ),
-            Some(Outcome::Dismissed) | None => {}
+            Some(Outcome::Dismissed) => self.session.log("dialog closed"),
+            None => {}
         }
         let session = &mut self.session;
         self.exports.retain(|export| {
@@ -235,7 +237,7 @@ impl Desk {
                     session.log(format!("saved {path}"));
                 }
                 export::Outcome::Cancelled => session.messages.note(format!("{path} was not saved")),
-                export::Outcome::Failed(text) => session.messages.error(text),
+                export::Outcome::Failed(text) => session.complain(text),
             }
             false
         });
@@ -256,7 +258,9 @@ impl Desk {
         let paths: Vec<PathBuf> = dropped.iter().map(|file| file.path().to_owned()).collect();
         match paths.as_slice() {
             [] => {}
-            [only] if only.extension().is_some_and(|ending| ending == "json") => self.load_view(only.clone()),
+            [only] if only.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+                self.load_view(only.clone())
+            }
             _ => self.find(paths),
         }
     }
@@ -292,7 +296,7 @@ impl Desk {
 
     fn save_picture(&mut self, path: PathBuf) {
         let Some((_, frame)) = self.session.frame().cloned() else {
-            self.session.messages.error("There is no frame to save a picture of: open files first");
+            self.session.complain("There is no frame to save a picture of: open files first");
             return;
         };
         let view = self.session.complete_view();
@@ -340,9 +344,10 @@ impl Desk {
     }
 
     /// Asks for the picture again, after the window's device was lost with all textures.
-    pub fn forget_textures(&mut self) {
+    pub fn picture_lost(&mut self) {
         self.picture.clear();
         self.session.ask_again();
+        self.session.recovered("The window's graphics device was lost and has been opened again");
     }
 
     /// What is going on in the background, for the status line.

@@ -1,8 +1,8 @@
 //! The system's file dialogs, on threads of their own: the window never waits for one.
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
-use std::time::{Duration, Instant};
 
 use rfd::{AsyncFileDialog, FileHandle};
 use winit::window::Window;
@@ -24,35 +24,38 @@ pub enum Outcome {
     Chosen(Purpose, Vec<PathBuf>),
     /// Closed without a choice.
     Dismissed,
-    /// It closed before anyone can have seen it.
+    /// There is nothing here that could show one.
     Unavailable,
 }
 
 /// At most one dialog at a time.
 pub struct Dialogs {
-    open: Option<Instant>,
+    open: bool,
     sender: mpsc::Sender<(Purpose, Vec<PathBuf>)>,
     receiver: mpsc::Receiver<(Purpose, Vec<PathBuf>)>,
     wake: Wake,
 }
 
-/// A person takes longer than this to close a dialog.
-const AT_ONCE: Duration = Duration::from_millis(600);
 const FRAMES: [&str; 12] =
     ["vtk", "vtu", "vtp", "pvd", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5"];
 
 impl Dialogs {
     pub fn new(wake: Wake) -> Dialogs {
         let (sender, receiver) = mpsc::channel();
-        Dialogs { open: None, sender, receiver, wake }
+        // Whoever else listens to the log can do so: then no dialog is a dialog that was closed.
+        if log::set_logger(&Ear).is_ok() {
+            log::set_max_level(log::LevelFilter::Error);
+        }
+        Dialogs { open: false, sender, receiver, wake }
     }
 
     /// Opens a dialog, unless one is open; `name` is the suggested file name.
     pub fn ask(&mut self, purpose: Purpose, name: &str, parent: &Window) {
-        if self.open.is_some() {
+        if self.open {
             return;
         }
-        self.open = Some(Instant::now());
+        self.open = true;
+        UNAVAILABLE.store(false, Ordering::Relaxed);
         let dialog = AsyncFileDialog::new().set_parent(parent);
         // Some systems want the dialog made on the window's thread; the waiting is done on another.
         type Choice = std::pin::Pin<Box<dyn Future<Output = Vec<PathBuf>> + Send>>;
@@ -96,13 +99,34 @@ impl Dialogs {
     /// The outcome of the dialog, once there is one.
     pub fn poll(&mut self) -> Option<Outcome> {
         let (purpose, paths) = self.receiver.try_recv().ok()?;
-        let opened = self.open.take()?;
+        self.open = false;
         Some(match paths.is_empty() {
             false => Outcome::Chosen(purpose, paths),
-            true if opened.elapsed() < AT_ONCE => Outcome::Unavailable,
+            true if UNAVAILABLE.load(Ordering::Relaxed) => Outcome::Unavailable,
             true => Outcome::Dismissed,
         })
     }
+}
+
+/// Whether the last dialog could not be opened.
+static UNAVAILABLE: AtomicBool = AtomicBool::new(false);
+
+/// Listens for what rfd tells nobody but the log: that there was neither a portal nor zenity.
+struct Ear;
+
+impl log::Log for Ear {
+    fn enabled(&self, about: &log::Metadata) -> bool {
+        // Below this module lie the portal's errors, after which zenity is tried.
+        about.level() == log::Level::Error && about.target() == "rfd::backend::xdg_desktop_portal"
+    }
+
+    fn log(&self, record: &log::Record) {
+        if self.enabled(record.metadata()) {
+            UNAVAILABLE.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn flush(&self) {}
 }
 
 fn path(file: FileHandle) -> PathBuf {

@@ -6,6 +6,7 @@
 //! - [`desk`] ties the two together with dialogs and [`panels`]; [`window`] is winit and egui.
 
 mod analysis;
+mod brush;
 mod desk;
 mod dialogs;
 mod export;
@@ -43,7 +44,8 @@ pub struct Options {
     /// Whether the run starts to play at once.
     pub playing: bool,
     pub gpu: GpuOptions,
-    /// Whether to write one line on standard error for each thing that happens.
+    /// Whether to write one line on standard error for each thing that happens. With it, F12 takes
+    /// the window's graphics device away, for tests of what follows from that.
     pub log_events: bool,
 }
 

@@ -98,16 +98,7 @@ impl RenderThread {
     pub fn spawn(options: GpuOptions, wake: Wake) -> RenderThread {
         let slot = Arc::new(Slot { share: AtomicU32::new(IDLE), ..Slot::default() });
         let (sender, reports) = mpsc::channel();
-        let worker = Worker {
-            slot: Arc::clone(&slot),
-            sender,
-            wake,
-            options,
-            renderer: None,
-            pace: Pace::new(BUDGETS[1], true),
-            preparation: Preparation::default(),
-            last: None,
-        };
+        let worker = Worker::new(Arc::clone(&slot), sender, wake, options);
         let thread = std::thread::Builder::new().name("render".into()).spawn(move || worker.run()).ok();
         RenderThread { slot, reports, thread }
     }
@@ -199,6 +190,19 @@ enum Stop {
 }
 
 impl Worker {
+    fn new(slot: Arc<Slot>, sender: mpsc::Sender<Report>, wake: Wake, options: GpuOptions) -> Worker {
+        Worker {
+            slot,
+            sender,
+            wake,
+            options,
+            renderer: None,
+            pace: Pace::new(BUDGETS[1], true),
+            preparation: Preparation::default(),
+            last: None,
+        }
+    }
+
     fn run(mut self) {
         // Opened before the first job comes: the shaders compile while the first frame is read.
         if let Err(text) = self.open() {
@@ -366,3 +370,7 @@ fn without_background(view: &View) -> View {
     view.image.background = None;
     view
 }
+
+#[cfg(test)]
+#[path = "render_thread_tests.rs"]
+mod tests;

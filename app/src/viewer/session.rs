@@ -271,7 +271,7 @@ impl Session {
                 self.messages.error(text.clone());
                 self.log(format!("failed frame={index} {text}"));
             }
-            Report::Recovered(text) => self.messages.warn(text.clone()),
+            Report::Recovered(text) => self.recovered(text),
         }
     }
 
@@ -343,6 +343,19 @@ impl Session {
         if let (Some(camera), (bounds @ Some(_), margin)) = (&mut self.camera, self.extent) {
             camera.reset(bounds, margin, aspect);
         }
+    }
+
+    /// Says what went wrong.
+    pub fn complain(&mut self, text: impl Into<String>) {
+        let text = text.into();
+        self.log(format!("error {text}"));
+        self.messages.error(text);
+    }
+
+    /// Says that a device was lost, and that work goes on.
+    pub fn recovered(&mut self, text: &str) {
+        self.log(format!("recovered {text}"));
+        self.messages.warn(text);
     }
 
     /// When to look again although nothing happens.

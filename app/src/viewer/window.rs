@@ -1,21 +1,20 @@
 //! The window itself: winit's events to egui, egui's shapes to the screen.
 
-use std::num::NonZeroU32;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, anyhow};
-use egui::{ViewportId, ViewportInfo};
-use egui_wgpu::winit::Painter;
-use egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup};
+use anyhow::anyhow;
+use egui::epaint::ImageDelta;
+use egui::{TextureId, TextureOptions, ViewportId, ViewportInfo};
 use egui_winit::accesskit_winit;
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
-use winit::event::WindowEvent;
+use winit::event::{KeyEvent, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::keyboard::{Key, NamedKey};
 use winit::window::{Fullscreen, Window, WindowId};
 
+use super::brush::Brush;
 use super::desk::{Desk, Order};
 use super::{Options, Wake, theme};
 
@@ -71,18 +70,17 @@ struct Open {
     glass: Glass,
     desk: Desk,
     window: Arc<Window>,
-    proxy: EventLoopProxy<Event>,
+    wake: Wake,
     next: Option<Instant>,
     title: String,
 }
 
-/// egui and what draws it; made anew when its device is lost.
+/// egui and what draws it.
 struct Glass {
-    painter: Painter,
+    brush: Brush,
     input: egui_winit::State,
     context: egui::Context,
     info: ViewportInfo,
-    lost: Arc<AtomicBool>,
 }
 
 impl ApplicationHandler<Event> for App {
@@ -142,14 +140,14 @@ impl Open {
             .with_min_inner_size(LogicalSize::new(640.0, 420.0))
             .with_visible(false);
         let window = Arc::new(events.create_window(attributes).map_err(no_display)?);
-        let glass = Glass::new(events, &window, &proxy)?;
         let sender = proxy.clone();
         // The window is gone when nobody listens.
         let wake: Wake = Arc::new(move || drop(sender.send_event(Event::Wake)));
-        let desk = Desk::new(options, wake);
+        let glass = Glass::new(events, &window, proxy, &wake)?;
+        let desk = Desk::new(options, Wake::clone(&wake));
         window.set_visible(true);
         window.request_redraw();
-        Ok(Open { glass, desk, window, proxy, next: None, title: String::new() })
+        Ok(Open { glass, desk, window, wake, next: None, title: String::new() })
     }
 
     fn handle(&mut self, events: &ActiveEventLoop, event: &WindowEvent) -> anyhow::Result<()> {
@@ -160,12 +158,11 @@ impl Open {
                 return Ok(());
             }
             WindowEvent::Resized(size) => {
-                if let (Some(width), Some(height)) =
-                    (NonZeroU32::new(size.width), NonZeroU32::new(size.height))
-                {
-                    self.glass.painter.on_window_resized(ViewportId::ROOT, width, height);
-                }
+                self.glass.brush.resize(*size);
                 self.window.request_redraw();
+            }
+            WindowEvent::KeyboardInput { event, .. } if self.desk.log_events && takes_device(event) => {
+                self.glass.brush.lose();
             }
             _ => {}
         }
@@ -176,13 +173,9 @@ impl Open {
     }
 
     fn redraw(&mut self, events: &ActiveEventLoop) -> anyhow::Result<()> {
-        if self.glass.lost.load(Ordering::Relaxed) {
-            self.glass = Glass::new(events, &self.window, &self.proxy)?;
-            self.desk
-                .session
-                .messages
-                .warn("the window's graphics device was lost and has been opened again");
-            self.desk.forget_textures();
+        if self.glass.brush.is_lost() {
+            self.glass.renew_brush(events, &self.window, &self.wake)?;
+            self.desk.picture_lost();
         }
         let delay = self.glass.draw(&self.window, &mut self.desk);
         for order in std::mem::take(&mut self.desk.orders) {
@@ -203,7 +196,7 @@ impl Open {
             self.window.request_redraw();
         }
         let asked = Instant::now().checked_add(delay).filter(|_| delay < Duration::from_secs(3600));
-        self.next = [asked, self.desk.due()].into_iter().flatten().min();
+        self.next = [asked, self.desk.due].into_iter().flatten().min();
         Ok(())
     }
 }
@@ -212,30 +205,36 @@ impl Glass {
     fn new(
         events: &ActiveEventLoop,
         window: &Arc<Window>,
-        proxy: &EventLoopProxy<Event>,
+        proxy: EventLoopProxy<Event>,
+        wake: &Wake,
     ) -> anyhow::Result<Glass> {
         let context = egui::Context::default();
         theme::apply(&context);
-        let configuration = WgpuConfiguration {
-            wgpu_setup: WgpuSetup::from_display_handle(events.owned_display_handle()),
-            ..WgpuConfiguration::default()
-        };
-        let options = RendererOptions::default();
-        let mut painter = pollster::block_on(Painter::new(context.clone(), configuration, false, options));
-        pollster::block_on(painter.set_window(ViewportId::ROOT, Some(Arc::clone(window)))).context(
-            "adapter: no graphics adapter can draw in this window: install a Vulkan, Metal or DirectX 12 \
-             driver (on Debian without a GPU: apt install mesa-vulkan-drivers)",
-        )?;
-        let lost = Arc::new(AtomicBool::new(false));
-        if let Some(state) = painter.render_state() {
-            watch(&state.device, &lost, proxy);
-        }
+        let brush = Brush::new(&context, events, window, wake)?;
         let scale = window.scale_factor() as f32;
-        let largest = painter.max_texture_side();
+        let largest = brush.largest_texture();
         let mut input =
             egui_winit::State::new(context.clone(), ViewportId::ROOT, events, Some(scale), None, largest);
-        input.init_accesskit(events, window, proxy.clone());
-        Ok(Glass { painter, input, context, info: ViewportInfo::default(), lost })
+        input.init_accesskit(events, window, proxy);
+        Ok(Glass { brush, input, context, info: ViewportInfo::default() })
+    }
+
+    /// Goes on with another device. All else stays: what is open and where, the keyboard, screen readers.
+    fn renew_brush(
+        &mut self,
+        events: &ActiveEventLoop,
+        window: &Arc<Window>,
+        wake: &Wake,
+    ) -> anyhow::Result<()> {
+        self.brush.let_go_of_window();
+        self.brush = Brush::new(&self.context, events, window, wake)?;
+        if let Some(largest) = self.brush.largest_texture() {
+            self.input.set_max_texture_side(largest);
+        }
+        // egui hands a painter only the letters that are new to it.
+        let letters = ImageDelta::full(self.context.fonts(|fonts| fonts.image()), TextureOptions::LINEAR);
+        self.context.tex_manager().write().set(TextureId::default(), letters);
+        Ok(())
     }
 
     /// Draws one frame of the window. Returns after what time egui wants the next one.
@@ -246,16 +245,7 @@ impl Glass {
         let mut output = self.context.run_ui(raw, |ui| desk.frame(ui, window));
         self.input.handle_platform_output(window, output.platform_output);
         let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
-        let ground = theme::GROUND.to_normalized_gamma_f32();
-        self.painter.paint_and_update_textures(
-            ViewportId::ROOT,
-            output.pixels_per_point,
-            ground,
-            &primitives,
-            &mut output.textures_delta,
-            Vec::new(),
-            window,
-        );
+        self.brush.paint(window, output.pixels_per_point, &primitives, &mut output.textures_delta);
         let root = output.viewport_output.get(&ViewportId::ROOT);
         root.map_or(Duration::MAX, |viewport| viewport.repaint_delay)
     }
@@ -270,15 +260,7 @@ impl Glass {
     }
 }
 
-/// Notes the loss of a device, and keeps errors of the driver from ending the program.
-fn watch(device: &wgpu::Device, lost: &Arc<AtomicBool>, proxy: &EventLoopProxy<Event>) {
-    let (flag, sender) = (Arc::clone(lost), proxy.clone());
-    device.set_device_lost_callback(move |reason, _| {
-        // A device that is dropped on purpose is not lost.
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            flag.store(true, Ordering::Relaxed);
-            drop(sender.send_event(Event::Wake));
-        }
-    });
-    device.on_uncaptured_error(Arc::new(|error: wgpu::Error| log::error!("window: {error}")));
+/// Whether this is the key by which a test takes the window's device away.
+fn takes_device(event: &KeyEvent) -> bool {
+    event.state.is_pressed() && event.logical_key == Key::Named(NamedKey::F12)
 }
