@@ -5,7 +5,7 @@ mod store;
 mod transfer;
 
 pub(crate) use frame::{FrameUniform, TileUniform, pitch, pivot_depth, radius_floor};
-pub(crate) use store::ParticleStore;
+pub use store::ParticleStore;
 pub(crate) use transfer::TransferTables;
 
 /// WGSL of the structs in `frame.rs`.
