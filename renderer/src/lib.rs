@@ -28,6 +28,8 @@
 //! relative to the cell. So neither the unit of the run, nor its place in the world, nor a camera far
 //! away or deep inside costs precision.
 
+#[doc(hidden)]
+pub mod bench;
 mod camera;
 mod error;
 mod gpu;

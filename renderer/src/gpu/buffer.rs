@@ -9,7 +9,7 @@ use crate::error::RenderError;
 const GRAIN: u64 = 16;
 
 /// A buffer of numbers of one size, with room for at least one.
-pub(crate) struct Buffer {
+pub struct Buffer {
     label: &'static str,
     stride: u64,
     usage: wgpu::BufferUsages,
@@ -18,20 +18,20 @@ pub(crate) struct Buffer {
 
 impl Buffer {
     /// An array for shaders to read and write, `stride` bytes an element.
-    pub(crate) fn storage(gpu: &Gpu, label: &'static str, stride: u64) -> Buffer {
+    pub fn storage(gpu: &Gpu, label: &'static str, stride: u64) -> Buffer {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
         Buffer { label, stride, usage, buffer: create(gpu, label, stride, usage) }
     }
 
     /// Constants of type `T`.
-    pub(crate) fn uniform<T>(gpu: &Gpu, label: &'static str) -> Buffer {
+    pub fn uniform<T>(gpu: &Gpu, label: &'static str) -> Buffer {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let stride = size_of::<T>() as u64;
         Buffer { label, stride, usage, buffer: create(gpu, label, stride, usage) }
     }
 
     /// Makes room for `count` elements; contents are lost where the buffer grows.
-    pub(crate) fn reserve(&mut self, gpu: &Gpu, count: u64) -> Result<(), RenderError> {
+    pub fn reserve(&mut self, gpu: &Gpu, count: u64) -> Result<(), RenderError> {
         let needed = (count.max(1) * self.stride).next_multiple_of(GRAIN);
         if needed <= self.buffer.size() {
             return Ok(());
@@ -47,7 +47,7 @@ impl Buffer {
     }
 
     /// Makes room for `values` and writes them.
-    pub(crate) fn write<T: NoUninit>(&mut self, gpu: &Gpu, values: &[T]) -> Result<(), RenderError> {
+    pub fn write<T: NoUninit>(&mut self, gpu: &Gpu, values: &[T]) -> Result<(), RenderError> {
         debug_assert_eq!(size_of_val(values) as u64 % self.stride, 0);
         self.reserve(gpu, size_of_val(values) as u64 / self.stride)?;
         gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(values));
@@ -58,7 +58,7 @@ impl Buffer {
         &self.buffer
     }
 
-    pub(crate) fn binding(&self) -> wgpu::BindingResource<'_> {
+    pub fn binding(&self) -> wgpu::BindingResource<'_> {
         self.buffer.as_entire_binding()
     }
 
@@ -67,7 +67,7 @@ impl Buffer {
         self.buffer.size() / self.stride
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
+    pub fn bytes(&self) -> u64 {
         self.buffer.size()
     }
 }

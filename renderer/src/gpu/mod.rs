@@ -6,8 +6,8 @@ mod timing;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-pub(crate) use buffer::Buffer;
-pub(crate) use pipeline::{Access, Pipeline, PipelineDescription};
+pub use buffer::Buffer;
+pub use pipeline::{Access, Pipeline, PipelineDescription};
 pub(crate) use timing::Timing;
 
 use crate::error::{GpuError, RenderError};

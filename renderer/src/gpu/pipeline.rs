@@ -4,7 +4,7 @@ use super::Gpu;
 
 /// How a shader uses a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Access {
+pub enum Access {
     Uniform,
     Read,
     Write,
@@ -13,7 +13,7 @@ pub(crate) enum Access {
 }
 
 /// What makes a pipeline.
-pub(crate) struct PipelineDescription<'a> {
+pub struct PipelineDescription<'a> {
     pub label: &'static str,
     /// WGSL files, put one behind the other.
     pub sources: &'a [&'a str],
@@ -25,7 +25,7 @@ pub(crate) struct PipelineDescription<'a> {
 }
 
 /// A compute shader with the layout of its bindings.
-pub(crate) struct Pipeline {
+pub struct Pipeline {
     label: &'static str,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
@@ -35,7 +35,7 @@ pub(crate) struct Pipeline {
 const ROW_OF_WORKGROUPS: u32 = 32_768;
 
 impl Pipeline {
-    pub(crate) fn new(gpu: &Gpu, description: &PipelineDescription) -> Pipeline {
+    pub fn new(gpu: &Gpu, description: &PipelineDescription) -> Pipeline {
         let label = description.label;
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -67,7 +67,7 @@ impl Pipeline {
     }
 
     /// Records `workgroups` workgroups over `resources`, which stand in the order of the bindings.
-    pub(crate) fn dispatch(
+    pub fn dispatch(
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,

@@ -1,4 +1,6 @@
 //! The view-aligned sparse grid (HPG 2016, Sec. 6.1): which particles each cell needs.
+//!
+//! By a counting sort; `benches/grid_sort` measures it against the paper's sort of pairs.
 
 use super::scan::Scan;
 use super::shared::{FRAME_WGSL, ParticleStore};
@@ -7,10 +9,10 @@ use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Timing};
 use crate::plan::Tile;
 
 /// Builds the grid of one tile at a time.
-pub(crate) struct Grid {
-    count: Pipeline,
-    scatter: Pipeline,
-    scan: Scan,
+pub struct Grid {
+    counting: Pipeline,
+    scattering: Pipeline,
+    sums: Scan,
     /// Where the references of each cell end, cells along a ray side by side.
     pub cells: Buffer,
     /// Particles of each cell, in no particular order.
@@ -35,9 +37,9 @@ impl Grid {
             )
         };
         Grid {
-            count: pipeline("count"),
-            scatter: pipeline("scatter"),
-            scan: Scan::new(gpu),
+            counting: pipeline("count"),
+            scattering: pipeline("scatter"),
+            sums: Scan::new(gpu),
             cells: Buffer::storage(gpu, "cells", 4),
             pairs: Buffer::storage(gpu, "cell-particle pairs", 4),
             totals: Buffer::storage(gpu, "grid totals", 16),
@@ -62,20 +64,55 @@ impl Grid {
     ) -> Result<(), RenderError> {
         encoder.clear_buffer(self.cells.raw(), 0, None);
         encoder.clear_buffer(self.totals.raw(), 0, None);
-        let [frame, tile_uniform] = uniforms;
-        let workgroups = store.count().div_ceil(256);
         let mut result = Ok(());
         timing.pass(encoder, "grid", |pass| {
-            let buffers =
-                [frame, tile_uniform, &store.projected, &self.cells, &self.pairs].map(Buffer::binding);
-            self.count.dispatch(gpu, pass, &buffers, workgroups);
-            result = self.scan.record(gpu, pass, &self.cells, &self.totals, tile.cells());
-            self.scatter.dispatch(gpu, pass, &buffers, workgroups);
+            self.count(gpu, pass, uniforms, store);
+            result = self.scan(gpu, pass, tile.cells());
+            self.scatter(gpu, pass, uniforms, store);
         });
         result
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
+    /// References of each cell; `cells` and `totals` must be zero before.
+    pub fn count(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        uniforms: [&Buffer; 2],
+        store: &ParticleStore,
+    ) {
+        self.walk(&self.counting, gpu, pass, uniforms, store);
+    }
+
+    /// From the references of each of `cells` cells to where they begin.
+    pub fn scan(&mut self, gpu: &Gpu, pass: &mut wgpu::ComputePass, cells: u64) -> Result<(), RenderError> {
+        self.sums.record(gpu, pass, &self.cells, &self.totals, cells)
+    }
+
+    /// References to their places.
+    pub fn scatter(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        uniforms: [&Buffer; 2],
+        store: &ParticleStore,
+    ) {
+        self.walk(&self.scattering, gpu, pass, uniforms, store);
+    }
+
+    fn walk(
+        &self,
+        pipeline: &Pipeline,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        [frame, tile]: [&Buffer; 2],
+        store: &ParticleStore,
+    ) {
+        let buffers = [frame, tile, &store.projected, &self.cells, &self.pairs].map(Buffer::binding);
+        pipeline.dispatch(gpu, pass, &buffers, store.count().div_ceil(256));
+    }
+
+    pub fn bytes(&self) -> u64 {
         self.cells.bytes() + self.pairs.bytes()
     }
 }

@@ -176,23 +176,36 @@ fn owner_of(column: u32) -> u32 {
     return low;
 }
 
+// The cells of one column that a particle touches: `first` up to, but without, `end`.
+struct Run {
+    particle: u32,
+    first: u32,
+    end: u32,
+}
+
+// A column of the workgroup whose particles begin with `first_particle`.
+fn run_of(column: u32, first_particle: u32) -> Run {
+    let owner = owner_of(column);
+    let rank = column - select(column_end[max(owner, 1u) - 1u], 0u, owner == 0u);
+    let width = row_width[owner];
+    let bundle = first_column[owner] + vec2(rank % width, rank / width);
+    let particle = first_particle + owner;
+    let layers = vec2<u32>(layers_of(projected[particle], bundle));
+
+    let in_tile = bundle - tile.first;
+    let row = (in_tile.y * tile.count.x + in_tile.x) * tile.layers;
+    return Run(particle, row + layers.x, row + layers.y);
+}
+
 fn walk(workgroup: u32, local: u32, scattering: bool) {
     let first_particle = workgroup * GROUP;
     let columns = share_columns(first_particle + local, local);
     for (var column = local; column < columns; column += GROUP) {
-        let owner = owner_of(column);
-        let rank = column - select(column_end[max(owner, 1u) - 1u], 0u, owner == 0u);
-        let width = row_width[owner];
-        let bundle = first_column[owner] + vec2(rank % width, rank / width);
-        let particle = first_particle + owner;
-        let layers = layers_of(projected[particle], bundle);
-
-        let in_tile = bundle - tile.first;
-        let row = (in_tile.y * tile.count.x + in_tile.x) * tile.layers;
-        for (var layer = layers.x; layer < layers.y; layer += 1) {
-            let place = atomicAdd(&cells[row + u32(layer)], 1u);
+        let run = run_of(column, first_particle);
+        for (var cell = run.first; cell < run.end; cell += 1u) {
+            let place = atomicAdd(&cells[cell], 1u);
             if scattering && place < tile.pair_capacity {
-                pairs[place] = particle;
+                pairs[place] = run.particle;
             }
         }
     }

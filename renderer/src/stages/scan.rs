@@ -20,14 +20,14 @@ struct Level {
     count_cells: u32,
 }
 
-pub(crate) struct Scan {
+pub struct Scan {
     scan: Pipeline,
     add: Pipeline,
     levels: [Buffer; MAX_LEVELS],
 }
 
 impl Scan {
-    pub(crate) fn new(gpu: &Gpu) -> Scan {
+    pub fn new(gpu: &Gpu) -> Scan {
         use Access::{Uniform, Write};
         let pipeline = |entry_point| {
             Pipeline::new(
@@ -46,13 +46,13 @@ impl Scan {
     }
 
     /// Numbers that the buffer of `length` counts must hold, upper levels included.
-    pub(crate) fn buffer_length(length: u64) -> u64 {
+    pub fn buffer_length(length: u64) -> u64 {
         levels(length).last().map_or(1, |level| u64::from(level.next) + 1)
     }
 
     /// Replaces the first `length` numbers of `sums` by the sums of those before them; writes the
     /// sum of all to `totals[0]`, and how many were above zero to `totals[1]`, which must be 0 before.
-    pub(crate) fn record(
+    pub fn record(
         &mut self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,

@@ -7,7 +7,7 @@ mod transfer;
 
 pub(crate) use bundle::{BUNDLE_BINDINGS, Bundles, Counters};
 pub(crate) use frame::{FrameUniform, TileUniform, pitch, pivot_depth, radius_floor};
-pub(crate) use store::ParticleStore;
+pub use store::ParticleStore;
 pub(crate) use transfer::TransferTables;
 
 /// WGSL of the structs in `frame.rs`.

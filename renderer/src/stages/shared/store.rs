@@ -7,7 +7,7 @@ use crate::gpu::{Buffer, Gpu};
 use crate::particles::{ParticleSet, Quantity};
 
 /// Arrays over the particles. Vectors of four floats where a shader reads all four.
-pub(crate) struct ParticleStore {
+pub struct ParticleStore {
     /// High part of the position, and support radius.
     pub high: Buffer,
     /// Low part of the position, and cube root of the weight V/h³.
@@ -80,7 +80,7 @@ impl ParticleStore {
     }
 
     /// Number of particles on the device.
-    pub(crate) fn count(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         self.count
     }
 
