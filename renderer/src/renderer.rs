@@ -20,7 +20,7 @@ use crate::stages::shared::{
     Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth,
 };
 use crate::stats::{Milliseconds, Stats};
-use crate::tiles::Job;
+use crate::tiles::{Analysed, Job};
 use crate::transfer::TransferFunction;
 
 /// Asks between submissions whether to go on; gets the share done, 0 to 1.
@@ -49,13 +49,12 @@ pub struct Renderer {
     pub(crate) bundles: Bundles,
     pub(crate) adapt: Adapt,
     pub(crate) cast: Cast,
-    /// Of the analysis and of the casting.
+    /// Of full and of adaptive sampling.
     pub(crate) pace: [Pace; 2],
     /// What the device holds: projected particles, and the grid of the only tile.
     pub(crate) projected: Option<Geometry>,
     pub(crate) sorted: Option<(Geometry, GridSize)>,
-    /// The grid whose bricks the device knows, with the quantity and the kernel they hold for.
-    pub(crate) analysed: Option<(Geometry, u64, Kernel)>,
+    pub(crate) analysed: Option<Analysed>,
     last: Option<(Geometry, Shading, Picture)>,
 }
 

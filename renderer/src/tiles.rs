@@ -4,11 +4,13 @@ use std::time::Instant;
 
 use crate::camera::Slices;
 use crate::error::{RenderError, TooLarge};
+use crate::kernel::Kernel;
 use crate::picture::Picture;
 use crate::plan::{Tile, TileLimits};
 use crate::renderer::{Geometry, GridSize, Progress, Renderer};
 use crate::scene::Scene;
 use crate::selection;
+use crate::stages::cast::Work;
 use crate::stages::shared::{FrameUniform, TileUniform};
 use crate::stats::Milliseconds;
 
@@ -24,27 +26,19 @@ pub(crate) struct Job<'a> {
     pub only_tile: bool,
 }
 
-/// A stage that takes a workgroup for each bundle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
-    Analysis,
-    Cast,
+/// The grid whose bounds the device knows, with the quantity and the kernel they hold for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Analysed {
+    geometry: Geometry,
+    quantity: u64,
+    kernel: Kernel,
 }
 
-impl Stage {
-    fn label(self) -> &'static str {
-        match self {
-            Stage::Analysis => "analysis",
-            Stage::Cast => "ray cast",
-        }
+impl Analysed {
+    fn of(job: &Job) -> Analysed {
+        let (scene, geometry) = (job.scene, job.geometry.clone());
+        Analysed { geometry, quantity: scene.quantity.id(), kernel: scene.kernel }
     }
-}
-
-/// How a stage is to go about a tile.
-struct Uniforms {
-    budget: f32,
-    stage: Stage,
-    adapted: bool,
 }
 
 /// First guess of the references that one particle needs; an overflow tells the true number.
@@ -160,83 +154,91 @@ impl Renderer {
         self.cast.reserve(&self.gpu, tile)?;
         // Behind a layer that has been cast before, the books of its rays are gone.
         let budget = job.scene.sampling.budget().filter(|_| tile.first_layer == 0);
+        if budget.is_some() {
+            self.prepare_analysis(job, tile, size)?;
+        }
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.bundles.clear_counters(&mut encoder);
         self.gpu.queue.submit([encoder.finish()]);
-        if let Some(budget) = budget {
-            self.analyse(job, tile, size, budget, &mut |part| progress(0.25 * part), picture)?;
-        }
-        let begun = if budget.is_some() { 0.25 } else { 0.0 };
-        let uniforms = Uniforms { budget: budget.unwrap_or(0.0), stage: Stage::Cast, adapted: budget.is_some() };
-        self.for_bundles(job, tile, uniforms, &mut |part| progress(begun + (1.0 - begun) * part), picture)?;
-        self.fetch_tile(tile, size, budget.is_some(), picture)
-    }
-
-    /// Chooses which bricks of `tile` to sample; finds out about those not known yet.
-    fn analyse(
-        &mut self,
-        job: &Job,
-        tile: &Tile,
-        size: GridSize,
-        budget: f32,
-        progress: &mut Progress,
-        picture: &mut Picture,
-    ) -> Result<(), RenderError> {
-        self.adapt.reserve(&self.gpu, tile, size.cells)?;
-        let wanted = (job.geometry.clone(), job.scene.quantity.id(), job.scene.kernel);
-        let known = self.analysed.take().filter(|known| job.only_tile && *known == wanted);
-        if known.is_none() {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            self.adapt.clear(&mut encoder);
-            self.gpu.queue.submit([encoder.finish()]);
-        }
-        let uniforms = Uniforms { budget, stage: Stage::Analysis, adapted: true };
-        self.for_bundles(job, tile, uniforms, progress, picture)?;
-        self.analysed = job.only_tile.then_some(wanted);
-        Ok(())
-    }
-
-    /// Runs a stage over the bundles of `tile`, in submissions of bounded length.
-    fn for_bundles(
-        &mut self,
-        job: &Job,
-        tile: &Tile,
-        Uniforms { budget, stage, adapted }: Uniforms,
-        progress: &mut Progress,
-        picture: &mut Picture,
-    ) -> Result<(), RenderError> {
         let bundles = tile.bundles();
         let mut first = 0;
         while first < bundles {
             if progress(first as f32 / bundles as f32).is_break() {
                 return Err(RenderError::Cancelled);
             }
-            let end = bundles.min(first + self.pace[stage as usize].bundles());
-            self.bundles.write_chunk(&self.gpu, first..end, bundles, budget)?;
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            self.timing.pass(&mut encoder, stage.label(), |pass| {
-                let uniforms = [&self.frame, &self.tile];
-                let (bundles, store, grid) = (&self.bundles, &self.store, &self.grid);
-                let (gpu, kernel, transfer, count) =
-                    (&self.gpu, job.scene.kernel, &self.transfer, end - first);
-                match stage {
-                    Stage::Analysis => self
-                        .adapt
-                        .record(gpu, pass, kernel, bundles, uniforms, store, grid, transfer, count),
-                    Stage::Cast => {
-                        let plan = adapted.then_some(&self.adapt);
-                        self.cast.record(
-                            gpu, pass, kernel, bundles, uniforms, store, grid, transfer, plan, count,
-                        );
-                    }
-                }
-            });
             let begin = Instant::now();
-            self.submit(encoder, &mut picture.stats.milliseconds)?;
-            self.pace[stage as usize].learn(end - first, begin.elapsed());
+            let end = bundles.min(first + self.pace[usize::from(budget.is_some())].bundles());
+            self.bundles.write_chunk(&self.gpu, first..end, bundles, budget.unwrap_or(0.0))?;
+            let times = &mut picture.stats.milliseconds;
+            match budget {
+                None => self.cast_fully(job.scene.kernel, end - first, times)?,
+                Some(_) => self.cast_adaptively(job.scene.kernel, end - first, times)?,
+            }
+            self.pace[usize::from(budget.is_some())].learn(end - first, begin.elapsed());
             first = end;
         }
+        self.analysed = (budget.is_some() && job.only_tile).then(|| Analysed::of(job));
+        self.fetch_tile(tile, size, budget.is_some(), picture)
+    }
+
+    /// Makes room for the bounds of `tile`, and forgets them where they hold for something else.
+    fn prepare_analysis(&mut self, job: &Job, tile: &Tile, size: GridSize) -> Result<(), RenderError> {
+        self.adapt.reserve(&self.gpu, tile, size.cells)?;
+        let known = self.analysed.take().filter(|known| job.only_tile && *known == Analysed::of(job));
+        if known.is_none() {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            self.adapt.clear(&mut encoder);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
         Ok(())
+    }
+
+    fn cast_fully(
+        &mut self,
+        kernel: Kernel,
+        bundles: u64,
+        times: &mut Milliseconds,
+    ) -> Result<(), RenderError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let shared = self.shared_bindings();
+        self.timing.pass(&mut encoder, "ray cast", |pass| {
+            self.cast.record_full(&self.gpu, pass, kernel, &shared, bundles);
+        });
+        self.submit(encoder, times)
+    }
+
+    /// Chooses what to sample in `bundles` bundles, and samples it.
+    fn cast_adaptively(
+        &mut self,
+        kernel: Kernel,
+        bundles: u64,
+        times: &mut Milliseconds,
+    ) -> Result<(), RenderError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.adapt.clear_work(&mut encoder);
+        let shared = self.shared_bindings();
+        self.timing.pass(&mut encoder, "analysis", |pass| {
+            self.adapt.record(&self.gpu, pass, kernel, &shared, bundles);
+        });
+        let work = self.adapt.read_work(&self.gpu, &mut encoder);
+        drop(shared);
+        self.submit(encoder, times)?;
+        let work: Vec<u32> = work.take(&self.gpu)?;
+        let work = Work { wholes: work[0].into(), parts: work[1].into() };
+
+        self.cast.reserve_segments(&self.gpu, work)?;
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let shared = self.shared_bindings();
+        self.timing.pass(&mut encoder, "ray cast", |pass| {
+            self.cast.record_adaptive(&self.gpu, pass, kernel, &shared, &self.adapt, work, bundles);
+        });
+        drop(shared);
+        self.submit(encoder, times)
+    }
+
+    /// Resources that all stages with a workgroup a bundle or a cell share.
+    fn shared_bindings(&self) -> Vec<wgpu::BindingResource<'_>> {
+        self.bundles.bindings([&self.frame, &self.tile], &self.store, &self.grid, &self.transfer)
     }
 
     /// Submits, waits, and adds the time of each stage.

@@ -7,6 +7,7 @@ mod timing;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub use buffer::Buffer;
+pub(crate) use buffer::Readback;
 pub use pipeline::{Access, Pipeline, PipelineDescription};
 pub(crate) use timing::Timing;
 

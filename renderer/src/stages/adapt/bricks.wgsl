@@ -1,4 +1,5 @@
-// Bounds of the quantity in the bricks of a cell.
+// Bounds of the quantity in the four bricks of a column, all at once: components of vec4 are bricks,
+// from front to back.
 //
 // In a brick with middle c, let N(x) = Σ (q_j − λ) w_j(x). Taylor's theorem gives
 //   N(c + δ) ≤ N(c) + ∇N(c)·δ + ½ |δ|² Σ |q_j − λ| max|w_j''|,
@@ -8,154 +9,196 @@
 // the weights (their error falls with the brick's width, this one's with its square), and the lower
 // bound of Σ w_j proves coverage.
 
-// The brick, lengths and place as in the cell.
-struct Brick {
-    middle: vec3<f32>,
-    // Of the column's axis, per unit of depth.
+// Lengths and places as in the cell.
+struct Column {
+    // The axis where it crosses the middle of the cell, and its direction per unit of depth.
+    from_axis: vec2<f32>,
     direction: vec3<f32>,
-    // How far samples lie from the middle: across, along depth, and in all.
-    half_width: f32,
-    half_depth: f32,
-    reach: f32,
+    // Depths of the bricks' middles.
+    depth: vec4<f32>,
+    // How far samples lie from the middle of a brick: across, along depth, and in all.
+    half_width: vec4<f32>,
+    half_depth: vec4<f32>,
+    reach: vec4<f32>,
 }
 
-fn place_brick(lane: u32, axis: vec2<f32>) -> Brick {
-    let from_axis = column_from_axis(lane % COLUMNS);
-    let depths = frame.sample_offset[lane / COLUMNS];
+fn column_at(column: u32, axis: vec2<f32>) -> Column {
+    let at = frame.sample_offset;
+    let first = vec4(at[0].x, at[1].x, at[2].x, at[3].x);
+    let last = vec4(at[0].w, at[1].w, at[2].w, at[3].w);
+    let from_axis = column_from_axis(column);
     let direction = vec3(axis + from_axis, 1.0);
-    let depth = 0.5 * (depths.x + depths.w);
-    let half_depth = 0.5 * (depths.w - depths.x) * SLACK;
-    let half_width = 0.5 * frame.pitch * (1.0 + depths.w) * SLACK;
+    let half_depth = 0.5 * (last - first) * SLACK;
+    let half_width = 0.5 * frame.pitch * (1.0 + last) * SLACK;
     let across = sqrt(2.0) * half_width + half_depth * length(direction.xy);
     let reach = sqrt(across * across + half_depth * half_depth) * SLACK;
-    return Brick(vec3(from_axis, 0.0) + depth * direction, direction, half_width, half_depth, reach);
+    return Column(from_axis, direction, 0.5 * (first + last), half_width, half_depth, reach);
 }
 
 const SLACK: f32 = 1.0001;
 
-// Position relative to the cell, and 1/h².
-var<workgroup> balls: array<vec4<f32>, LANES>;
-// Weight, quantity relative to the cell's reference, 1/h.
-var<workgroup> charges: array<vec3<f32>, LANES>;
-
-fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
-    let particle = pairs[place];
-    let ball = projected[particle];
-    let inverse_radius = depth / ball.w;
-    balls[lane] = vec4((ball.xyz - middle) / depth, inverse_radius * inverse_radius);
-    let quantity = quantities[particle];
-    let rejected = quantity > REJECTED;
-    charges[lane] = vec3(weights[particle], quantity - reference, inverse_radius);
-    if rejected {
-        // Touches no brick.
-        balls[lane] = vec4(1e18, 0.0, 0.0, 1.0);
-    }
+// Sums over particles: of w, of −w'/r, and of −w'/r times the particle's place relative to the
+// column's axis in the cell: across, and along the column.
+struct Sums {
+    value: vec4<f32>,
+    bend: vec4<f32>,
+    bend_x: vec4<f32>,
+    bend_y: vec4<f32>,
+    bend_along: vec4<f32>,
 }
 
-// A kernel at distance ρ (in radii): its value, −W'/ρ, and an upper bound of the norm of its second
+struct Expansion {
+    // With the weights alone, and times the quantity.
+    weight: Sums,
+    charge: Sums,
+    // Σ m, Σ q·m, Σ q²·m, where m bounds what the expansion of a particle leaves out.
+    rest: vec4<f32>,
+    rest_q: vec4<f32>,
+    rest_qq: vec4<f32>,
+    // Extremes of the quantity of particles that reach a brick: inverted where there are none.
+    low: vec4<f32>,
+    high: vec4<f32>,
+}
+
+fn no_sums() -> Sums {
+    return Sums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+}
+
+fn no_expansion() -> Expansion {
+    let none = vec4(0.0);
+    return Expansion(no_sums(), no_sums(), none, none, none, vec4(FAR), vec4(-FAR));
+}
+
+const FAR: f32 = 1e30;
+
+// A kernel at distances ρ (in radii): its value, −W'/ρ, and an upper bound of the norm of its second
 // derivative at ρ_near and beyond. All kernels here have a second derivative, at the edge too.
-fn kernel_jet(rho: f32, rho_near: f32) -> vec3<f32> {
-    let x = max(1.0 - rho * rho, 0.0);
-    let inside = max(1.0 - rho, 0.0);
-    let near = max(1.0 - rho_near, 0.0);
+struct Jet {
+    value: vec4<f32>,
+    bend: vec4<f32>,
+    curvature: vec4<f32>,
+}
+
+fn kernel_jet(rho: vec4<f32>, rho_near: vec4<f32>) -> Jet {
+    let inside = max(1.0 - rho, vec4(0.0));
+    let near = max(1.0 - rho_near, vec4(0.0));
     if KERNEL == 0u {
+        let x = inside * (1.0 + rho);
         let s = rho_near * rho_near;
-        let y = max(1.0 - s, 0.0);
-        let radial = select(6.0 * y * (5.0 * s - 1.0), 4.8, s < 0.6);
-        return vec3(x * x * x, 6.0 * x * x, max(6.0 * y * y, radial));
+        let y = near * (1.0 + rho_near);
+        let radial = select(6.0 * y * (5.0 * s - 1.0), vec4(4.8), s < vec4(0.6));
+        return Jet(x * x * x, 6.0 * x * x, max(6.0 * y * y, radial));
     }
     if KERNEL == 1u {
-        let inner = rho <= 0.5;
-        return vec3(
+        let inner = rho <= vec4(0.5);
+        return Jet(
             select(2.0 * inside * inside * inside, 1.0 - 6.0 * rho * rho * inside, inner),
-            select(6.0 * inside * inside / max(rho, 0.5), 12.0 - 18.0 * rho, inner),
-            select(12.0 * near, max(12.0 - 18.0 * rho_near, 6.0), rho_near <= 0.5),
+            select(6.0 * inside * inside / max(rho, vec4(0.5)), 12.0 - 18.0 * rho, inner),
+            select(12.0 * near, max(12.0 - 18.0 * rho_near, vec4(6.0)), rho_near <= vec4(0.5)),
         );
     }
     let cube = inside * inside * inside;
-    let radial = select(20.0 * near * near * (4.0 * rho_near - 1.0), 5.0, rho_near < 0.5);
-    return vec3(inside * cube * (1.0 + 4.0 * rho), 20.0 * cube, max(20.0 * near * near * near, radial));
+    let radial = select(20.0 * near * near * (4.0 * rho_near - 1.0), vec4(5.0), rho_near < vec4(0.5));
+    return Jet(inside * cube * (1.0 + 4.0 * rho), 20.0 * cube, max(20.0 * near * near * near, radial));
 }
 
-// Sums over the particles that may reach a brick.
-struct Expansion {
-    touching: u32,
-    // Extremes of their quantities.
-    low: f32,
-    high: f32,
-    // Gradient and value of Σ w, and of Σ q·w.
-    weight: vec4<f32>,
-    charge: vec4<f32>,
-    // Σ m, Σ q·m, Σ q²·m, where m is the particle's bound of what the expansion leaves out.
-    rest: vec3<f32>,
+fn plus(sums: Sums, factor: f32, value: vec4<f32>, bend: vec4<f32>, place: vec3<f32>) -> Sums {
+    let b = factor * bend;
+    return Sums(
+        sums.value + factor * value,
+        sums.bend + b,
+        sums.bend_x + b * place.x,
+        sums.bend_y + b * place.y,
+        sums.bend_along + b * place.z,
+    );
 }
 
-fn add_particle(sums: ptr<function, Expansion>, brick: Brick, ball: vec4<f32>, charge: vec3<f32>) {
-    let offset = ball.xyz - brick.middle;
-    let reach = brick.reach * charge.z;
-    let rho = sqrt(dot(offset, offset) * ball.w);
-    if rho >= 1.0 + reach + 1e-5 {
-        return;
-    }
-    let jet = kernel_jet(rho, max(rho - reach, 0.0));
-    let weighted = charge.x * vec4(jet.y * ball.w * offset, jet.x);
+// Adds a particle (place relative to the cell, and 1/h²) of some weight, and quantity relative to the
+// cell's reference. Returns how many bricks it may reach.
+fn add_particle(
+    expansion: ptr<function, Expansion>, column: Column, ball: vec4<f32>, weight: f32, q: f32,
+) -> u32 {
+    let from_axis = ball.xyz - vec3(column.from_axis, 0.0);
+    let inverse_radius = sqrt(ball.w);
+    let x = from_axis.x - column.depth * column.direction.x;
+    let y = from_axis.y - column.depth * column.direction.y;
+    let z = from_axis.z - column.depth;
+    let rho = sqrt(x * x + y * y + z * z) * inverse_radius;
+    let reach = column.reach * inverse_radius;
+    let reached = rho < 1.0 + reach + 1e-5;
+    let jet = kernel_jet(rho, max(rho - reach, vec4(0.0)));
     // The second part stands for the rounding of ρ².
-    let rest = charge.x * (0.5 * reach * reach * jet.z + 1e-6 * jet.y);
-    let q = charge.y;
-    (*sums).touching += 1u;
-    (*sums).low = min((*sums).low, q);
-    (*sums).high = max((*sums).high, q);
-    (*sums).weight += weighted;
-    (*sums).charge += q * weighted;
-    (*sums).rest += rest * vec3(1.0, q, q * q);
+    let left_out = weight * (0.5 * reach * reach * jet.curvature + 1e-6 * jet.bend);
+    let place = vec3(from_axis.xy, dot(from_axis, column.direction));
+    let bend = ball.w * jet.bend;
+    (*expansion).weight = plus((*expansion).weight, weight, jet.value, bend, place);
+    (*expansion).charge = plus((*expansion).charge, weight * q, jet.value, bend, place);
+    (*expansion).rest += left_out;
+    (*expansion).rest_q += q * left_out;
+    (*expansion).rest_qq += q * q * left_out;
+    (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), reached);
+    (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), reached);
+    return u32(dot(select(vec4(0.0), vec4(1.0), reached), vec4(1.0)));
 }
 
-// By how much a linear function with this gradient may exceed its value at the brick's middle.
-fn swing(gradient: vec3<f32>, brick: Brick) -> f32 {
-    return brick.half_width * (abs(gradient.x) + abs(gradient.y))
-        + brick.half_depth * abs(dot(gradient, brick.direction));
+fn less(a: Sums, factor: vec4<f32>, b: Sums) -> Sums {
+    return Sums(
+        a.value - factor * b.value,
+        a.bend - factor * b.bend,
+        a.bend_x - factor * b.bend_x,
+        a.bend_y - factor * b.bend_y,
+        a.bend_along - factor * b.bend_along,
+    );
 }
 
-// The upper bound of Σ (q − λ)·w over the brick; falls with λ, and is convex in it.
-fn excess(sums: Expansion, brick: Brick, lambda: f32) -> f32 {
-    let linear = sums.charge - lambda * sums.weight;
-    let rest = sums.rest.z - lambda * (2.0 * sums.rest.y - lambda * sums.rest.x);
-    return linear.w + swing(linear.xyz, brick) + sqrt(max(sums.rest.x * rest, 0.0));
+// By how much the linear part of the expansion may exceed its value at the middle.
+fn swing(sums: Sums, column: Column) -> vec4<f32> {
+    let along = dot(column.direction, column.direction);
+    let gradient_x = sums.bend_x - column.depth * column.direction.x * sums.bend;
+    let gradient_y = sums.bend_y - column.depth * column.direction.y * sums.bend;
+    let gradient_along = sums.bend_along - column.depth * along * sums.bend;
+    return column.half_width * (abs(gradient_x) + abs(gradient_y)) + column.half_depth * abs(gradient_along);
 }
 
-// An upper bound of Q over the brick, where Σ w is at least `least_weight` > 0.
-fn upper_bound(sums: Expansion, brick: Brick, least_weight: f32) -> f32 {
-    let mean = sums.charge.w / sums.weight.w;
-    let above = max(excess(sums, brick, mean), 0.0);
-    // The excess falls at least as fast as −least_weight, so it is not positive here; and as it is
-    // convex, its chord crosses zero no earlier than itself.
+// The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
+fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f32> {
+    let linear = less(e.charge, lambda, e.weight);
+    let rest = e.rest_qq - lambda * (2.0 * e.rest_q - lambda * e.rest);
+    return side * linear.value + swing(linear, column) + sqrt(max(e.rest * rest, vec4(0.0)));
+}
+
+// An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
+//
+// As λ moves outward from the mean, the excess falls at least as fast as `least_weight` times its way,
+// so it is not positive at `far`; and as it is convex, its chord crosses zero no earlier than itself.
+fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> vec4<f32> {
+    let mean = e.charge.value / e.weight.value;
+    let above = max(excess(e, column, mean, side), vec4(0.0));
     let far = above / least_weight;
-    let below = min(excess(sums, brick, mean + far), 0.0);
-    return mean + far * select(1.0, above / (above - below), above > below);
+    let below = min(excess(e, column, mean + side * far, side), vec4(0.0));
+    return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
 }
 
-fn values_of(sums: Expansion, brick: Brick, reference: f32) -> u32 {
-    if sums.touching == 0u {
-        return EMPTY;
-    }
-    var low = sums.low;
-    var high = sums.high;
-    let least_weight = sums.weight.w * (1.0 - 1e-5) - swing(sums.weight.xyz, brick) - sums.rest.x;
-    let covered = least_weight > 1e-4 * sums.weight.w;
-    if covered {
-        let mirrored = Expansion(
-            sums.touching, 0.0, 0.0, sums.weight, -sums.charge, sums.rest * vec3(1.0, -1.0, 1.0));
-        let rounding = 4e-6 * max(abs(low), abs(high));
-        let upper = upper_bound(sums, brick, least_weight) + rounding;
-        let lower = -upper_bound(mirrored, brick, least_weight) - rounding;
-        // Where one of them is no number, the extremes stay.
-        if lower <= upper {
-            high = min(high, max(upper, low));
-            low = max(low, min(lower, high));
-        }
-    }
+// The bricks' values.
+fn values_of(e: Expansion, column: Column, reference: f32) -> vec4<u32> {
+    let least_weight = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let covered = least_weight > 1e-4 * e.weight.value;
+    let safe_weight = select(vec4(1.0), least_weight, covered);
+    let rounding = 4e-6 * max(abs(e.low), abs(e.high));
+    let upper = bound(e, column, safe_weight, 1.0) + rounding;
+    let lower = bound(e, column, safe_weight, -1.0) - rounding;
+    // Where one of them is no number, the extremes stay.
+    let better = covered & (lower <= upper);
+    let low = select(e.low, max(e.low, min(lower, e.high)), better);
+    let high = select(e.high, min(e.high, max(upper, e.low)), better);
     // Rounded outward by as much as the sum may be off.
-    low = clamp(reference + low - 1e-6, 0.0, 1.0);
-    high = clamp(reference + high + 1e-6, 0.0, 1.0);
-    return pack_values(low, high, covered);
+    let least = clamp(reference + low - 1e-6, vec4(0.0), vec4(1.0));
+    let greatest = clamp(reference + high + 1e-6, vec4(0.0), vec4(1.0));
+    let values = vec4(
+        pack_values(least.x, greatest.x, covered.x),
+        pack_values(least.y, greatest.y, covered.y),
+        pack_values(least.z, greatest.z, covered.z),
+        pack_values(least.w, greatest.w, covered.w),
+    );
+    return select(vec4(EMPTY), values, e.low <= e.high);
 }

@@ -1,35 +1,36 @@
 //! Adaptive sampling: bounds of the quantity in each brick of 2 × 2 rays × 4 slices, and the choice
 //! of the bricks that need no samples.
 //!
-//! The bricks of a cell are found out when a picture first needs them and stay until the grid, the
+//! The bounds of a cell are found out when a picture first needs them and stay until the grid, the
 //! quantity or the kernel changes; the choice is made anew for each picture.
 
-use super::grid::Grid;
-use super::shared::{
-    BUNDLE_BINDINGS, BUNDLE_WGSL, Bundles, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, ParticleStore, TRANSFER_WGSL,
-    TransferTables,
-};
+use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
-use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
 
+/// Buffers as `levels.wgsl` describes them.
 pub(crate) struct Adapt {
     /// One a kernel.
     pipelines: Vec<Pipeline>,
-    /// Number of slots of `bricks` that are taken.
+    /// For each cell of a tile.
+    pub cell_values: Buffer,
+    pub sampled: Buffer,
     slots_taken: Buffer,
-    /// For each cell its slot of bricks, and bounds over the whole cell.
-    cell_values: Buffer,
-    /// Bounds of the quantity in the 64 bricks of a cell, slot by slot.
-    bricks: Buffer,
-    /// For each of the 16 columns of a bundle, what it may show unsampled.
-    plan: Buffer,
+    /// For each column of a slot.
+    pub bricks: Buffer,
+    pub charges: Buffer,
+    pub shows: Buffer,
+    /// For each bundle.
+    pub last_layers: Buffer,
+    /// Cells to be sampled, of one submission.
+    pub wholes: Buffer,
+    pub parts: Buffer,
+    pub work: Buffer,
 }
 
-/// Bricks of a cell.
-const BRICKS: u64 = 64;
-/// Columns of bricks of a bundle.
+/// Columns of bricks of a cell.
 const COLUMNS: u64 = 16;
 
 impl Adapt {
@@ -50,24 +51,35 @@ impl Adapt {
                     ],
                     entry_point: "choose_levels",
                     constants: &[("KERNEL", f64::from(kernel.code()))],
-                    bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 4]].concat(),
+                    bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 10]].concat(),
                 },
             )
         };
         Adapt {
             pipelines: Kernel::ALL.iter().map(pipeline).collect(),
-            slots_taken: Buffer::storage(gpu, "slots taken", 4),
             cell_values: Buffer::storage(gpu, "values of cells", 8),
-            bricks: Buffer::storage(gpu, "values of bricks", 4),
-            plan: Buffer::storage(gpu, "plan of columns", 8),
+            sampled: Buffer::storage(gpu, "sampled cells", 4),
+            slots_taken: Buffer::storage(gpu, "slots taken", 4),
+            bricks: Buffer::storage(gpu, "values of bricks", 16),
+            charges: Buffer::storage(gpu, "charges of bricks", 16),
+            shows: Buffer::storage(gpu, "middles of columns", 16),
+            last_layers: Buffer::storage(gpu, "last layers", 4),
+            wholes: Buffer::storage(gpu, "cells to be sampled", 8),
+            parts: Buffer::storage(gpu, "cells to be sampled in parts", 16),
+            work: Buffer::storage(gpu, "work", 16),
         }
     }
 
     /// Makes room for the analysis of `tile`, of whose cells `filled` hold particles.
     pub(crate) fn reserve(&mut self, gpu: &Gpu, tile: &Tile, filled: u64) -> Result<(), RenderError> {
         self.cell_values.reserve(gpu, tile.cells())?;
-        self.bricks.reserve(gpu, filled * BRICKS)?;
-        self.plan.reserve(gpu, tile.bundles() * COLUMNS)
+        self.sampled.reserve(gpu, tile.cells())?;
+        self.last_layers.reserve(gpu, tile.bundles())?;
+        self.bricks.reserve(gpu, filled * COLUMNS)?;
+        self.charges.reserve(gpu, filled * COLUMNS)?;
+        self.shows.reserve(gpu, filled * COLUMNS)?;
+        self.wholes.reserve(gpu, filled)?;
+        self.parts.reserve(gpu, filled)
     }
 
     /// Forgets the bounds of all bricks.
@@ -76,32 +88,44 @@ impl Adapt {
         encoder.clear_buffer(self.cell_values.raw(), 0, None);
     }
 
-    /// Records the analysis of `count` bundles: as many as [`Bundles::write_chunk`] named.
-    #[expect(clippy::too_many_arguments, reason = "one for each thing the shader reads")]
+    /// Forgets the work of the submission before.
+    pub(crate) fn clear_work(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(self.work.raw(), 0, None);
+    }
+
+    /// Records the analysis of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
     pub(crate) fn record(
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
         kernel: Kernel,
-        bundles: &Bundles,
-        uniforms: [&Buffer; 2],
-        store: &ParticleStore,
-        grid: &Grid,
-        transfer: &TransferTables,
-        count: u64,
+        shared: &[wgpu::BindingResource],
+        bundles: u64,
     ) {
-        let mut resources = bundles.bindings(uniforms, store, grid, transfer);
-        resources.push(self.slots_taken.binding());
-        resources.extend(self.bindings());
-        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &resources, count);
+        let own = [
+            &self.cell_values,
+            &self.slots_taken,
+            &self.bricks,
+            &self.charges,
+            &self.shows,
+            &self.last_layers,
+            &self.sampled,
+            &self.wholes,
+            &self.parts,
+            &self.work,
+        ]
+        .map(Buffer::binding);
+        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &[shared, &own].concat(), bundles);
     }
 
-    /// What the analysis leaves to the casting.
-    pub(crate) fn bindings(&self) -> [wgpu::BindingResource<'_>; 3] {
-        [&self.cell_values, &self.bricks, &self.plan].map(Buffer::binding)
+    /// Asks for the numbers of cells to be sampled as a whole and in parts.
+    pub(crate) fn read_work(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Readback {
+        self.work.read_back(gpu, encoder, 1)
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.cell_values.bytes() + self.bricks.bytes() + self.plan.bytes()
+        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.charges, &self.shows];
+        let lists = [&self.last_layers, &self.wholes, &self.parts];
+        buffers.into_iter().chain(lists).map(Buffer::bytes).sum()
     }
 }

@@ -1,5 +1,10 @@
 // Full sampling: a workgroup takes a bundle of 8 × 8 rays from front to back, a lane one ray.
 
+// Premultiplied linear RGB and transparency, 64 pixels a bundle.
+@group(0) @binding(12) var<storage, read_write> pixels: array<vec4<f32>>;
+
+var<workgroup> open_rays: atomic<u32>;
+
 @compute @workgroup_size(LANES)
 fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let turn = chunk.first_turn + flat(workgroup);
@@ -20,7 +25,7 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
         let so_far = pixels[pixel];
         ray = Ray(so_far.rgb, so_far.w);
     }
-    var first = first_reference(index);
+    var first = first_of_cell(index * tile.layers);
     for (var layer = 0u; layer < tile.layers; layer += 1u) {
         let end = cells[index * tile.layers + layer];
         if end > first && end <= tile.pair_capacity {

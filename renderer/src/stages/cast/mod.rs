@@ -1,11 +1,11 @@
-//! Ray casting (HPG 2016, Alg. 2): at full sampling, or as `adapt` planned it.
+//! Ray casting (HPG 2016, Alg. 2): at full sampling, or as `adapt` chose.
+//!
+//! At full sampling a workgroup takes a bundle through its cells. Adaptively, the cells that are to be
+//! sampled are work of their own, independent of each other, so that a workgroup does one thing: it
+//! samples a cell as a whole, or some of its bricks. Then the cells of a bundle are put together.
 
 use super::adapt::Adapt;
-use super::grid::Grid;
-use super::shared::{
-    BUNDLE_BINDINGS, BUNDLE_WGSL, Bundles, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, ParticleStore, TRANSFER_WGSL,
-    TransferTables,
-};
+use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
@@ -16,41 +16,66 @@ const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
 pub(crate) struct Cast {
     /// One a kernel.
     full: Vec<Pipeline>,
-    adaptive: Vec<Pipeline>,
+    wholes: Vec<Pipeline>,
+    parts: Vec<Pipeline>,
+    composite: Pipeline,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
+    /// Colour and opacity of each ray in a sampled cell, 64 a cell.
+    segments: Buffer,
+}
+
+/// How much of the cells of a submission `adapt` left to be sampled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Work {
+    /// Cells to be sampled as a whole, and in parts.
+    pub wholes: u64,
+    pub parts: u64,
 }
 
 impl Cast {
     /// `count_inside`: count evaluations with a weight above zero too, which costs time.
     pub(crate) fn new(gpu: &Gpu, count_inside: bool) -> Cast {
         use Access::{Read, Write};
+        let pipeline = |kernel: Kernel, entry_point, sources: &[&str], bindings: &[Access]| {
+            let kernel = ("KERNEL", f64::from(kernel.code()));
+            let counting = ("COUNT_INSIDE", f64::from(u8::from(count_inside)));
+            let constants = [kernel, counting];
+            let used = if sources.contains(&SAMPLES_WGSL) { 2 } else { 1 };
+            Pipeline::new(
+                gpu,
+                &PipelineDescription {
+                    label: entry_point,
+                    sources: &[&[FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL], sources].concat(),
+                    entry_point,
+                    constants: &constants[..used],
+                    bindings: &[&BUNDLE_BINDINGS, bindings].concat(),
+                },
+            )
+        };
         let pipelines = |entry_point, sources: &[&str], bindings: &[Access]| {
-            let pipeline = |kernel: &Kernel| {
-                Pipeline::new(
-                    gpu,
-                    &PipelineDescription {
-                        label: entry_point,
-                        sources: &[&[FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL], sources].concat(),
-                        entry_point,
-                        constants: &[
-                            ("KERNEL", f64::from(kernel.code())),
-                            ("COUNT_INSIDE", f64::from(u8::from(count_inside))),
-                        ],
-                        bindings: &[&BUNDLE_BINDINGS, bindings].concat(),
-                    },
-                )
-            };
-            Kernel::ALL.iter().map(pipeline).collect()
+            Kernel::ALL.iter().map(|&kernel| pipeline(kernel, entry_point, sources, bindings)).collect()
         };
         Cast {
             full: pipelines("cast_rays", &[SAMPLES_WGSL, include_str!("full.wgsl")], &[Write]),
-            adaptive: pipelines(
-                "cast_adaptively",
-                &[HULL_WGSL, SAMPLES_WGSL, include_str!("adaptive.wgsl")],
-                &[Write, Read, Read, Read],
+            wholes: pipelines(
+                "sample_wholes",
+                &[SAMPLES_WGSL, include_str!("whole.wgsl")],
+                &[Write, Read, Read],
+            ),
+            parts: pipelines(
+                "sample_parts",
+                &[HULL_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
+                &[Write, Read, Read, Read, Read, Read],
+            ),
+            composite: pipeline(
+                Kernel::default(),
+                "composite_cells",
+                &[HULL_WGSL, include_str!("composite.wgsl")],
+                &[Write, Read, Read, Read, Read, Read],
             ),
             pixels: Buffer::storage(gpu, "pixels", 16),
+            segments: Buffer::storage(gpu, "segments of rays", 16),
         }
     }
 
@@ -59,35 +84,54 @@ impl Cast {
         self.pixels.reserve(gpu, tile.bundles() * 64)
     }
 
-    /// Records the casting of `count` bundles: as many as [`Bundles::write_chunk`] named. Where there
-    /// is a plan, at the sampling that it chose.
-    #[expect(clippy::too_many_arguments, reason = "one for each thing the shader reads")]
-    pub(crate) fn record(
+    /// Makes room for what `work` leaves.
+    pub(crate) fn reserve_segments(&mut self, gpu: &Gpu, work: Work) -> Result<(), RenderError> {
+        self.segments.reserve(gpu, (work.wholes + work.parts) * 64)
+    }
+
+    /// Records full sampling of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
+    pub(crate) fn record_full(
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
         kernel: Kernel,
-        bundles: &Bundles,
-        uniforms: [&Buffer; 2],
-        store: &ParticleStore,
-        grid: &Grid,
-        transfer: &TransferTables,
-        plan: Option<&Adapt>,
-        count: u64,
+        shared: &[wgpu::BindingResource],
+        bundles: u64,
     ) {
-        let mut resources = bundles.bindings(uniforms, store, grid, transfer);
-        resources.push(self.pixels.binding());
-        let pipelines = match plan {
-            None => &self.full,
-            Some(adapt) => {
-                resources.extend(adapt.bindings());
-                &self.adaptive
-            }
-        };
-        pipelines[kernel.code() as usize].dispatch(gpu, pass, &resources, count);
+        let resources = with(shared, &[&self.pixels]);
+        self.full[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
+    }
+
+    /// Records the sampling of what `adapt` left of `bundles` bundles, and puts their cells together.
+    #[expect(clippy::too_many_arguments, reason = "one for each thing the shaders read")]
+    pub(crate) fn record_adaptive(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        kernel: Kernel,
+        shared: &[wgpu::BindingResource],
+        adapt: &Adapt,
+        work: Work,
+        bundles: u64,
+    ) {
+        let kernel = kernel.code() as usize;
+        let (segments, values) = (&self.segments, &adapt.cell_values);
+        let wholes = with(shared, &[segments, &adapt.work, &adapt.wholes]);
+        self.wholes[kernel].dispatch(gpu, pass, &wholes, work.wholes);
+        let parts =
+            with(shared, &[segments, &adapt.work, &adapt.parts, values, &adapt.bricks, &adapt.charges]);
+        self.parts[kernel].dispatch(gpu, pass, &parts, work.parts);
+        let cells =
+            with(shared, &[&self.pixels, segments, &adapt.sampled, &adapt.last_layers, values, &adapt.shows]);
+        self.composite.dispatch(gpu, pass, &cells, bundles);
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes()
+        self.pixels.bytes() + self.segments.bytes()
     }
+}
+
+/// Resources of a shader: the shared ones, then its own.
+fn with<'a>(shared: &[wgpu::BindingResource<'a>], own: &[&'a Buffer]) -> Vec<wgpu::BindingResource<'a>> {
+    shared.iter().cloned().chain(own.iter().map(|buffer| buffer.binding())).collect()
 }

@@ -4,24 +4,12 @@
 // Inside a cell, lengths are relative to the middle of the cell on the bundle's axis, in units of
 // that middle's depth z_c: a squared distance then never cancels against the distance to the eye.
 
-// Premultiplied linear RGB and transparency, 64 pixels a bundle.
-@group(0) @binding(12) var<storage, read_write> pixels: array<vec4<f32>>;
-
 override COUNT_INSIDE: bool = false;
-
-// A ray that transmits less than this has ended.
-const OPAQUE: f32 = 1e-5;
 
 // Position relative to the cell, and 1/h².
 var<workgroup> balls: array<vec4<f32>, LANES>;
 // Weight, and weight times quantity.
-var<workgroup> charges: array<vec2<f32>, LANES>;
-var<workgroup> open_rays: atomic<u32>;
-
-struct Ray {
-    colour: vec3<f32>,
-    transparency: f32,
-}
+var<workgroup> loads: array<vec2<f32>, LANES>;
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
 // `reference`, a value of the cell: where all particles have the same one, the sum is exact.
@@ -33,7 +21,7 @@ fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference
     balls[lane] = vec4((ball.xyz - middle) / depth, inverse_radius * inverse_radius);
     let quantity = quantities[particle];
     let weight = select(weights[particle], 0.0, quantity > REJECTED);
-    charges[lane] = vec2(weight, select(weight * (quantity - reference), 0.0, quantity > REJECTED));
+    loads[lane] = vec2(weight, select(weight * (quantity - reference), 0.0, quantity > REJECTED));
 }
 
 // A ray's way through a ball: along it, 1 − ρ² is a parabola.
@@ -128,7 +116,7 @@ fn cast_cell(
             if arc.top <= 0.0 {
                 continue;
             }
-            let charge = charges[i];
+            let charge = loads[i];
             if meets(at[0], arc) {
                 let k = kernel_on(at[0], arc);
                 w0 += charge.x * k;

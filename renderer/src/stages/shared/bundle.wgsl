@@ -56,10 +56,9 @@ fn corner_of(index: u32) -> vec2<f32> {
     return vec2<f32>(bundle * BUNDLE_SIDE);
 }
 
-// Where the references of the first cell of a bundle begin.
-fn first_reference(index: u32) -> u32 {
-    let row = index * tile.layers;
-    return select(cells[max(row, 1u) - 1u], 0u, row == 0u);
+// Where the references of a cell begin.
+fn first_of_cell(cell: u32) -> u32 {
+    return select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
 }
 
 // Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact
@@ -68,6 +67,14 @@ fn place_in_bundle(lane: u32) -> vec2<u32> {
     let x = (lane & 1u) | (lane >> 1u & 2u) | (lane >> 2u & 4u);
     let y = (lane >> 1u & 1u) | (lane >> 2u & 2u) | (lane >> 3u & 4u);
     return vec2(x, y);
+}
+
+// A ray that transmits less than this has ended.
+const OPAQUE: f32 = 1e-5;
+
+struct Ray {
+    colour: vec3<f32>,
+    transparency: f32,
 }
 
 // Distance of a lane's ray from the bundle's axis, in slope. Exact: half pixels times the pitch.

@@ -1,7 +1,6 @@
 // What a stretch of a few rays through one brick can do to the light behind it.
 //
-// A brick is 2 × 2 rays × 4 slices; a cell has 16 columns of them, 4 deep. Lane l of a bundle's
-// workgroup has the brick of column l mod 16 that is l/16-th from the front. Columns follow the same
+// A brick is 2 × 2 rays × 4 slices; a cell has 16 columns of them, 4 deep. Columns follow the same
 // Morton curve as rays, so that the rays of column c are those of lanes 4c to 4c + 3.
 //
 // A brick's values are a word: bounds of the quantity at all its samples, in [0, 1], the lower one in
@@ -94,12 +93,6 @@ fn column_in_picture(corner: vec2<f32>, column: u32) -> bool {
     return all(corner + 2.0 * vec2<f32>(place_in_bundle(column)) < vec2<f32>(frame.size));
 }
 
-// Scores, charge for each particle saved, fall into classes of half an octave.
-const CLASSES: u32 = 64u;
-
-fn class_of(charge: f32, particles: f32) -> u32 {
-    return u32(clamp(2.0 * log2(charge / particles) + 62.0, 0.0, f32(CLASSES - 1u)));
-}
 
 // Whether nothing with values in these bounds is seen at all.
 fn is_transparent(values: u32) -> bool {
