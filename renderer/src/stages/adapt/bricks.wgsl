@@ -51,6 +51,8 @@ struct Expansion {
     // With the weights alone, and times the quantity.
     weight: Sums,
     charge: Sums,
+    // Σ of the least weights that the particles have anywhere in a brick.
+    least: vec4<f32>,
     // Σ m, Σ q·m, Σ q²·m, where m bounds what the expansion of a particle leaves out.
     rest: vec4<f32>,
     rest_q: vec4<f32>,
@@ -66,7 +68,7 @@ fn no_sums() -> Sums {
 
 fn no_expansion() -> Expansion {
     let none = vec4(0.0);
-    return Expansion(no_sums(), no_sums(), none, none, none, vec4(FAR), vec4(-FAR));
+    return Expansion(no_sums(), no_sums(), none, none, none, none, vec4(FAR), vec4(-FAR));
 }
 
 const FAR: f32 = 1e30;
@@ -102,6 +104,12 @@ fn kernel_jet(rho: vec4<f32>, rho_near: vec4<f32>) -> Jet {
     return Jet(inside * cube * (1.0 + 4.0 * rho), 20.0 * cube, max(20.0 * near * near * near, radial));
 }
 
+// The kernel's value at distances ρ.
+fn kernel_at(rho: vec4<f32>) -> vec4<f32> {
+    let inside = max(1.0 - rho, vec4(0.0));
+    return kernel(inside * (1.0 + rho));
+}
+
 fn plus(sums: Sums, factor: f32, value: vec4<f32>, bend: vec4<f32>, place: vec3<f32>) -> Sums {
     let b = factor * bend;
     return Sums(
@@ -133,6 +141,7 @@ fn add_particle(
     let bend = ball.w * jet.bend;
     (*expansion).weight = plus((*expansion).weight, weight, jet.value, bend, place);
     (*expansion).charge = plus((*expansion).charge, weight * q, jet.value, bend, place);
+    (*expansion).least += weight * kernel_at(rho + reach + 1e-6);
     (*expansion).rest += left_out;
     (*expansion).rest_q += q * left_out;
     (*expansion).rest_qq += q * q * left_out;
@@ -169,8 +178,8 @@ fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f3
 
 // An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
 //
-// As λ moves outward from the mean, the excess falls at least as fast as `least_weight` times its way,
-// so it is not positive at `far`; and as it is convex, its chord crosses zero no earlier than itself.
+// Q is farther from λ than the mean by no more than the excess over Σ w: `far`. And where the excess is
+// negative there, a tighter bound lies between: it is convex, so its chord crosses zero no earlier.
 fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> vec4<f32> {
     let mean = e.charge.value / e.weight.value;
     let above = max(excess(e, column, mean, side), vec4(0.0));
@@ -181,7 +190,8 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
 
 // The bricks' values.
 fn values_of(e: Expansion, column: Column, reference: f32) -> vec4<u32> {
-    let least_weight = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let expanded = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     let covered = least_weight > 1e-4 * e.weight.value;
     let safe_weight = select(vec4(1.0), least_weight, covered);
     let rounding = 4e-6 * max(abs(e.low), abs(e.high));

@@ -155,8 +155,7 @@ fn expand(cell: Cell, wanted: bool, most: u32, axis: vec2<f32>, column: Column, 
         for (var i = 0u; i < loaded; i += 1u) {
             let particle = group_lane + i;
             let load = loads[particle];
-            // A value and its derivatives.
-            evaluations += 2u * add_particle(&expansion, column, balls[particle], load.x, load.y);
+            evaluations += add_particle(&expansion, column, balls[particle], load.x, load.y);
         }
         workgroupBarrier();
     }
