@@ -21,9 +21,9 @@
 @group(0) @binding(17) var<storage, read_write> last_layers: array<u32>;
 // For each cell its place among those that are sampled + 2, 1 where it is shown, 0 where nothing is.
 @group(0) @binding(18) var<storage, read_write> sampled: array<u32>;
-// Cells to be sampled as a whole: cell, place among the sampled ones; and in parts: cell, place, bits
-// of the bricks to be sampled.
-@group(0) @binding(19) var<storage, read_write> wholes: array<vec2<u32>>;
+// Cells to be sampled, where most bricks are and where few are: cell, place among the sampled ones, and
+// bits of the bricks to be sampled.
+@group(0) @binding(19) var<storage, read_write> wholes: array<vec4<u32>>;
 @group(0) @binding(20) var<storage, read_write> parts: array<vec4<u32>>;
 @group(0) @binding(21) var<storage, read_write> work: Work;
 
@@ -34,7 +34,7 @@ struct Work {
 }
 
 const GROUP_CELLS: u32 = 4u;
-// With more bricks than this to be sampled, a cell is sampled as a whole.
+// With more bricks than this to be sampled, lanes stand for rays, else for a ray's samples in a brick.
 const MOST_BRICKS: u32 = 32u;
 // Scores, charge for each particle saved, fall into classes of half an octave, down to 2⁻³².
 const CLASSES: u32 = 64u;
@@ -284,21 +284,21 @@ fn set_bits(number: u32, column: u32, chosen: vec4<bool>) {
 fn file_cell(cell: Cell, number: u32) {
     let mask = vec2(atomicLoad(&masks[2u * number]), atomicLoad(&masks[2u * number + 1u]));
     let count = countOneBits(mask.x) + countOneBits(mask.y);
-    let seen = atomicLoad(&shown[number]) > 0u;
+    // Whether a brick that is seen is not sampled.
+    let shows_some = atomicLoad(&shown[number]) > 0u;
     if count == 0u {
-        sampled[cell.cell] = select(0u, 1u, seen);
-        atomicAdd(&counters[select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, seen)], 1u);
+        sampled[cell.cell] = select(0u, 1u, shows_some);
+        atomicAdd(&counters[select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some)], 1u);
         return;
     }
     let place = atomicAdd(&work.sampled, 1u);
     sampled[cell.cell] = place + 2u;
     if count > MOST_BRICKS {
-        wholes[atomicAdd(&work.wholes, 1u)] = vec2(cell.cell, place);
+        wholes[atomicAdd(&work.wholes, 1u)] = vec4(cell.cell, place, mask);
     } else {
         parts[atomicAdd(&work.parts, 1u)] = vec4(cell.cell, place, mask);
     }
-    let full = count > MOST_BRICKS || !seen;
-    atomicAdd(&counters[select(CELLS_MIXED, CELLS_FULL, full)], 1u);
+    atomicAdd(&counters[select(CELLS_FULL, CELLS_MIXED, shows_some)], 1u);
 }
 
 @compute @workgroup_size(LANES)
@@ -408,7 +408,7 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         let affordable = with_mine * (1.0 + ROUNDING) <= plan.left;
         let chosen = (charge > vec4(0.0)) & ((classes > vec4(plan.marginal)) | (at_margin & vec4(!affordable)));
         set_bits(number, column_index, chosen);
-        if seen {
+        if seen && !all(chosen) {
             atomicAdd(&shown[number], 1u);
         }
         workgroupBarrier();

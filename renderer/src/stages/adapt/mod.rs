@@ -64,7 +64,7 @@ impl Adapt {
             charges: Buffer::storage(gpu, "charges of bricks", 16),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             last_layers: Buffer::storage(gpu, "last layers", 4),
-            wholes: Buffer::storage(gpu, "cells to be sampled", 8),
+            wholes: Buffer::storage(gpu, "cells to be sampled", 16),
             parts: Buffer::storage(gpu, "cells to be sampled in parts", 16),
             work: Buffer::storage(gpu, "work", 16),
         }

@@ -29,7 +29,7 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     for (var layer = 0u; layer < tile.layers; layer += 1u) {
         let end = cells[index * tile.layers + layer];
         if end > first && end <= tile.pair_capacity {
-            let cell = cast_cell(layer, first, end, axis, slope, from_axis, lane);
+            let cell = cast_cell(layer, first, end, axis, slope, from_axis, 15u, lane);
             ray.colour += ray.transparency * cell.rgb;
             ray.transparency *= 1.0 - cell.a;
             if lane == 0u {

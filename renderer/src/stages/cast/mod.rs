@@ -12,6 +12,7 @@ use crate::kernel::Kernel;
 use crate::plan::Tile;
 
 const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
+const WORK_WGSL: &str = include_str!("work.wgsl");
 
 pub(crate) struct Cast {
     /// One a kernel.
@@ -40,8 +41,9 @@ impl Cast {
         let pipeline = |kernel: Kernel, entry_point, sources: &[&str], bindings: &[Access]| {
             let kernel = ("KERNEL", f64::from(kernel.code()));
             let counting = ("COUNT_INSIDE", f64::from(u8::from(count_inside)));
-            let constants = [kernel, counting];
-            let used = if sources.contains(&SAMPLES_WGSL) { 2 } else { 1 };
+            let some_shown = ("SOME_SHOWN", f64::from(u8::from(sources.contains(&WORK_WGSL))));
+            let constants = [kernel, counting, some_shown];
+            let used = if sources.contains(&SAMPLES_WGSL) { 3 } else { 1 };
             Pipeline::new(
                 gpu,
                 &PipelineDescription {
@@ -60,12 +62,12 @@ impl Cast {
             full: pipelines("cast_rays", &[SAMPLES_WGSL, include_str!("full.wgsl")], &[Write]),
             wholes: pipelines(
                 "sample_wholes",
-                &[SAMPLES_WGSL, include_str!("whole.wgsl")],
-                &[Write, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
+                &[Write, Read, Read, Read, Read, Read],
             ),
             parts: pipelines(
                 "sample_parts",
-                &[HULL_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
+                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
                 &[Write, Read, Read, Read, Read, Read],
             ),
             composite: pipeline(
@@ -116,11 +118,12 @@ impl Cast {
     ) {
         let kernel = kernel.code() as usize;
         let (segments, values) = (&self.segments, &adapt.cell_values);
-        let wholes = with(shared, &[segments, &adapt.work, &adapt.wholes]);
-        self.wholes[kernel].dispatch(gpu, pass, &wholes, work.wholes);
-        let parts =
-            with(shared, &[segments, &adapt.work, &adapt.parts, values, &adapt.bricks, &adapt.charges]);
-        self.parts[kernel].dispatch(gpu, pass, &parts, work.parts);
+        let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
+            let own = [segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.charges];
+            pipeline.dispatch(gpu, pass, &with(shared, &own), count);
+        };
+        sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
+        sample(&self.parts[kernel], pass, &adapt.parts, work.parts);
         let cells =
             with(shared, &[&self.pixels, segments, &adapt.sampled, &adapt.last_layers, values, &adapt.shows]);
         self.composite.dispatch(gpu, pass, &cells, bundles);

@@ -1,22 +1,6 @@
 // Samples some bricks of a cell: a workgroup a cell. A lane stands not for a ray but for a ray's four
 // samples in a brick, so that few bricks keep all lanes busy.
 
-struct Work {
-    wholes: u32,
-    parts: u32,
-    sampled: u32,
-}
-
-// Colour and opacity of each ray in a sampled cell, 64 a cell.
-@group(0) @binding(12) var<storage, read_write> segments: array<vec4<f32>>;
-@group(0) @binding(13) var<storage, read> work: Work;
-// Cell, its place among the sampled ones, and bits of the bricks to be sampled.
-@group(0) @binding(14) var<storage, read> parts: array<vec4<u32>>;
-// As in adapt/levels.wgsl.
-@group(0) @binding(15) var<storage, read> cell_values: array<vec2<u32>>;
-@group(0) @binding(16) var<storage, read> bricks: array<vec4<u32>>;
-@group(0) @binding(17) var<storage, read> charges: array<vec4<f32>>;
-
 // Bricks to be sampled: at most 32, two units of work a lane.
 var<workgroup> todo: array<u32, LANES>;
 // Colour and opacity of ray r in the brick layer b of the cell: 4r + b.
@@ -91,17 +75,11 @@ fn sample_bricks(layer: u32, first: u32, end: u32, count: u32, axis: vec2<f32>, 
     add_to_tally(0u, done);
 }
 
-// Shows the lane's brick by its middle, on all of its rays.
-fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) {
-    let place = (cell_values[cell].x - 2u) * COLUMNS + column;
-    let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
-    let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
-    let hull = hull_of(bricks[place][brick_layer], paths);
-    let seen = charges[place][brick_layer] >= 0.0;
-    let middle = select(vec4(0.0), hull.middle, seen);
-    for (var ray = 0u; ray < 4u; ray += 1u) {
-        strands[4u * (4u * column + ray) + brick_layer] = middle;
-    }
+// How many chosen bricks have lower bits.
+fn rank_of(task: vec4<u32>, column: u32, brick_layer: u32) -> u32 {
+    let bit = column + 16u * (brick_layer % 2u);
+    let before = task[2u + brick_layer / 2u] & ((1u << bit) - 1u);
+    return countOneBits(before) + select(0u, countOneBits(task.z), brick_layer >= 2u);
 }
 
 @compute @workgroup_size(LANES)
@@ -110,20 +88,19 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     if number >= work.parts {
         return;
     }
-    let task = parts[number];
+    let task = tasks[number];
     let cell = task.x;
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
     // The lane's brick.
     let column = lane % COLUMNS;
     let brick_layer = lane / COLUMNS;
-    let word = task[2u + brick_layer / 2u];
-    let bit = column + 16u * (brick_layer % 2u);
-    if (word >> bit & 1u) == 1u {
-        let before = word & ((1u << bit) - 1u);
-        let rank = countOneBits(before) + select(0u, countOneBits(task.z), brick_layer >= 2u);
-        todo[rank] = lane;
+    if is_chosen(task, column, brick_layer) {
+        todo[rank_of(task, column, brick_layer)] = lane;
     } else {
-        show_brick(cell, column, brick_layer, axis);
+        let middle = middle_of(cell, column, brick_layer, axis);
+        for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
+            strands[4u * ray + brick_layer] = middle;
+        }
     }
     workgroupBarrier();
     let count = countOneBits(task.z) + countOneBits(task.w);

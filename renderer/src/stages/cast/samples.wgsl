@@ -5,11 +5,15 @@
 // that middle's depth z_c: a squared distance then never cancels against the distance to the eye.
 
 override COUNT_INSIDE: bool = false;
+// Whether some bricks of a cell are shown unsampled.
+override SOME_SHOWN: bool = false;
 
 // Position relative to the cell, and 1/h².
 var<workgroup> balls: array<vec4<f32>, LANES>;
 // Weight, and weight times quantity.
 var<workgroup> loads: array<vec2<f32>, LANES>;
+// Colour and opacity of bricks that are shown unsampled, where some are: brick b of column c is 16b + c.
+var<workgroup> middles: array<vec4<f32>, LANES>;
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
 // `reference`, a value of the cell: where all particles have the same one, the sum is exact.
@@ -80,7 +84,8 @@ fn composite_four(
 
 // Colour and opacity of a ray's stretch through one cell.
 //
-// `slope` is the ray's, `from_axis` its distance in slope from the bundle's axis.
+// `slope` is the ray's, `from_axis` its distance in slope from the bundle's axis; `sampled` are bits of
+// its four bricks.
 fn cast_cell(
     layer: u32,
     first: u32,
@@ -88,6 +93,7 @@ fn cast_cell(
     axis: vec2<f32>,
     slope: vec2<f32>,
     from_axis: vec2<f32>,
+    sampled: u32,
     lane: u32,
 ) -> vec4<f32> {
     let depths = layer_depth[tile.first_layer + layer];
@@ -117,28 +123,28 @@ fn cast_cell(
                 continue;
             }
             let charge = loads[i];
-            if meets(at[0], arc) {
+            if is_sampled(sampled, 0u) && meets(at[0], arc) {
                 let k = kernel_on(at[0], arc);
                 w0 += charge.x * k;
                 q0 += charge.y * k;
                 done += 4u;
                 if COUNT_INSIDE { inside += positive(k); }
             }
-            if meets(at[1], arc) {
+            if is_sampled(sampled, 1u) && meets(at[1], arc) {
                 let k = kernel_on(at[1], arc);
                 w1 += charge.x * k;
                 q1 += charge.y * k;
                 done += 4u;
                 if COUNT_INSIDE { inside += positive(k); }
             }
-            if meets(at[2], arc) {
+            if is_sampled(sampled, 2u) && meets(at[2], arc) {
                 let k = kernel_on(at[2], arc);
                 w2 += charge.x * k;
                 q2 += charge.y * k;
                 done += 4u;
                 if COUNT_INSIDE { inside += positive(k); }
             }
-            if meets(at[3], arc) {
+            if is_sampled(sampled, 3u) && meets(at[3], arc) {
                 let k = kernel_on(at[3], arc);
                 w3 += charge.x * k;
                 q3 += charge.y * k;
@@ -154,10 +160,31 @@ fn cast_cell(
     let path = frame.slab_depth;
     let scale = depth * sqrt(direction_squared) * frame.path_scale;
     var cell = vec4(0.0);
-    cell = composite_four(cell, w0, q0, reference, path[0] * scale);
-    cell = composite_four(cell, w1, q1, reference, path[1] * scale);
-    cell = composite_four(cell, w2, q2, reference, path[2] * scale);
-    return composite_four(cell, w3, q3, reference, path[3] * scale);
+    cell = pass_brick(cell, 0u, w0, q0, reference, path[0] * scale, sampled, lane);
+    cell = pass_brick(cell, 1u, w1, q1, reference, path[1] * scale, sampled, lane);
+    cell = pass_brick(cell, 2u, w2, q2, reference, path[2] * scale, sampled, lane);
+    return pass_brick(cell, 3u, w3, q3, reference, path[3] * scale, sampled, lane);
+}
+
+fn is_sampled(sampled: u32, brick_layer: u32) -> bool {
+    return !SOME_SHOWN || (sampled >> brick_layer & 1u) == 1u;
+}
+
+// One more brick behind the others: its samples, or its middle.
+fn pass_brick(
+    cell: vec4<f32>,
+    brick_layer: u32,
+    weights: vec4<f32>,
+    quantities: vec4<f32>,
+    reference: f32,
+    paths: vec4<f32>,
+    sampled: u32,
+    lane: u32,
+) -> vec4<f32> {
+    if is_sampled(sampled, brick_layer) {
+        return composite_four(cell, weights, quantities, reference, paths);
+    }
+    return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];
 }
 
 fn positive(k: vec4<f32>) -> u32 {

@@ -1,16 +1,4 @@
-// Samples a cell as a whole: a workgroup a cell, a lane a ray.
-
-struct Work {
-    wholes: u32,
-    parts: u32,
-    sampled: u32,
-}
-
-// Colour and opacity of each ray in a sampled cell, 64 a cell.
-@group(0) @binding(12) var<storage, read_write> segments: array<vec4<f32>>;
-@group(0) @binding(13) var<storage, read> work: Work;
-// Cell, and its place among the sampled ones.
-@group(0) @binding(14) var<storage, read> wholes: array<vec2<u32>>;
+// Samples most bricks of a cell: a workgroup a cell, a lane a ray.
 
 @compute @workgroup_size(LANES)
 fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -18,12 +6,19 @@ fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     if number >= work.wholes {
         return;
     }
-    let cell = wholes[number].x;
+    let task = tasks[number];
+    let cell = task.x;
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
+    middles[lane] = middle_of(cell, lane % COLUMNS, lane / COLUMNS, axis);
+    var sampled = 0u;
+    for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
+        sampled |= select(0u, 1u << i, is_chosen(task, lane / 4u, i));
+    }
+    workgroupBarrier();
     let from_axis = ray_from_axis(lane);
-    let first = first_of_cell(cell);
-    segments[wholes[number].y * LANES + lane] =
-        cast_cell(cell % tile.layers, first, cells[cell], axis, axis + from_axis, from_axis, lane);
+    let slope = axis + from_axis;
+    segments[task.y * LANES + lane] =
+        cast_cell(cell % tile.layers, first_of_cell(cell), cells[cell], axis, slope, from_axis, sampled, lane);
     workgroupBarrier();
     if lane == 0u {
         settle_tally(0u, EVALUATIONS);
