@@ -1,0 +1,188 @@
+//! A chart as SVG: axes with a light grid, what is drawn between them, and labels at the right.
+
+use std::fmt::Write;
+
+use super::axis::Axis;
+
+const SIZE: [f64; 2] = [860.0, 460.0];
+/// Places of the ends of the axes; the rest is for titles and labels.
+pub const X_ENDS: [f64; 2] = [76.0, 640.0];
+pub const Y_ENDS: [f64; 2] = [400.0, 74.0];
+/// From one label to the next, at least.
+const LINE: f64 = 17.0;
+
+/// How something is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    pub colour: &'static str,
+    /// Pattern of dashes; empty for a solid line. What is dashed has hollow dots.
+    pub dashes: &'static str,
+}
+
+pub struct Chart {
+    x: Axis,
+    y: Axis,
+    body: String,
+    labels: Vec<Label>,
+}
+
+struct Label {
+    y: f64,
+    text: String,
+    style: Style,
+}
+
+impl Chart {
+    pub fn new(title: &str, note: &str, x: Axis, y: Axis) -> Chart {
+        let mut chart = Chart { x, y, body: String::new(), labels: Vec::new() };
+        let left = X_ENDS[0];
+        chart.text([left, 28.0], r#"class="title""#, title);
+        chart.text([left, 49.0], r#"class="note""#, note);
+        chart.axes();
+        chart
+    }
+
+    fn axes(&mut self) {
+        let ([left, right], [bottom, top]) = (X_ENDS, Y_ENDS);
+        for (value, label) in self.y.marks() {
+            let y = self.y.place(value);
+            self.stroke([[left, y], [right, y]], r##"stroke="#e4e4e4""##);
+            self.text([left - 9.0, y + 4.0], r#"text-anchor="end""#, &label);
+        }
+        for (value, label) in self.x.marks() {
+            let x = self.x.place(value);
+            self.stroke([[x, bottom], [x, bottom + 5.0]], r##"stroke="#888""##);
+            self.text([x, bottom + 20.0], r#"text-anchor="middle""#, &label);
+        }
+        self.stroke([[left, bottom], [right, bottom]], r##"stroke="#888""##);
+        let middle = [(left + right) / 2.0, (bottom + top) / 2.0];
+        self.text([middle[0], bottom + 44.0], r#"text-anchor="middle""#, self.x.title);
+        let turned = format!(r#"text-anchor="middle" transform="rotate(-90 20 {})""#, middle[1]);
+        self.text([20.0, middle[1]], &turned, self.y.title);
+    }
+
+    /// Through `points`, in units of the axes, with a dot at each where `dots`.
+    pub fn line(&mut self, points: &[[f64; 2]], style: Style, dots: bool) {
+        let places: Vec<String> = points.iter().map(|&[x, y]| self.at(x, y)).collect();
+        let (places, how) = (places.join(" "), stroke(style, 1.8));
+        let _ =
+            writeln!(self.body, r#"<polyline points="{places}" fill="none" {how} stroke-linejoin="round"/>"#);
+        for &point in points.iter().filter(|_| dots) {
+            self.dot(point, 2.6, style);
+        }
+    }
+
+    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, Style { colour, dashes }: Style) {
+        let fill = if dashes.is_empty() { colour } else { "white" };
+        let (x, y) = (self.x.place(x), self.y.place(y));
+        let _ = writeln!(
+            self.body,
+            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{radius}" fill="{fill}" stroke="{colour}" stroke-width="1.6"/>"#
+        );
+    }
+
+    /// A thin line between two points; dotted for a limit, solid for a spread.
+    pub fn thin(&mut self, from: [f64; 2], to: [f64; 2], colour: &'static str, dotted: bool) {
+        let places = [from, to].map(|[x, y]| [self.x.place(x), self.y.place(y)]);
+        let dashes = if dotted { "1.5 3.5" } else { "" };
+        self.stroke(places, &stroke(Style { colour, dashes }, 1.3));
+    }
+
+    /// A short upright line: where something ends.
+    pub fn tick(&mut self, [x, y]: [f64; 2], colour: &str) {
+        let [x, y] = [self.x.place(x), self.y.place(y)];
+        self.stroke([[x, y - 5.0], [x, y + 5.0]], &format!(r#"stroke="{colour}" stroke-width="1.6""#));
+    }
+
+    /// Names what ends at the right at the height of `y`.
+    pub fn label(&mut self, y: f64, text: String, style: Style) {
+        self.labels.push(Label { y: self.y.place(y), text, style });
+    }
+
+    /// The whole file.
+    pub fn svg(mut self) -> String {
+        self.place_labels();
+        let [width, height] = SIZE;
+        format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" font-family="Helvetica, Arial, 'DejaVu Sans', sans-serif" font-size="13" fill="#333">
+<style>.title {{ font-size: 17px; font-weight: bold; fill: #111 }} .note {{ fill: #666 }}</style>
+<rect width="{width}" height="{height}" fill="white"/>
+{}</svg>
+"##,
+            self.body
+        )
+    }
+
+    /// Labels keep the order of what they name, and their distance from each other.
+    fn place_labels(&mut self) {
+        let mut labels = std::mem::take(&mut self.labels);
+        labels.sort_by(|a, b| a.y.total_cmp(&b.y));
+        let mut heights: Vec<f64> = labels.iter().map(|label| label.y).collect();
+        push_apart(&mut heights, LINE);
+        let left = X_ENDS[1];
+        for (Label { y, text, style }, height) in labels.into_iter().zip(heights) {
+            self.stroke([[left + 4.0, y], [left + 22.0, height]], &stroke(style, 1.3));
+            self.text([left + 28.0, height + 4.5], &format!(r#"fill="{}""#, style.colour), &text);
+        }
+    }
+
+    fn at(&self, x: f64, y: f64) -> String {
+        format!("{:.1},{:.1}", self.x.place(x), self.y.place(y))
+    }
+
+    fn stroke(&mut self, [[x1, y1], [x2, y2]]: [[f64; 2]; 2], how: &str) {
+        let _ = writeln!(self.body, r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" {how}/>"#);
+    }
+
+    fn text(&mut self, [x, y]: [f64; 2], how: &str, text: &str) {
+        let text = text.replace('&', "&amp;").replace('<', "&lt;");
+        let _ = writeln!(self.body, r#"<text x="{x:.1}" y="{y:.1}" {how}>{text}</text>"#);
+    }
+}
+
+/// The attributes of a line.
+fn stroke(Style { colour, dashes }: Style, width: f64) -> String {
+    let dashes = if dashes.is_empty() { String::new() } else { format!(r#" stroke-dasharray="{dashes}""#) };
+    format!(r#"stroke="{colour}" stroke-width="{width}"{dashes}"#)
+}
+
+/// Moves ascending `places` so far that each two are `distance` apart, groups of them to both sides alike.
+fn push_apart(places: &mut [f64], distance: f64) {
+    // Of each group: the sum of where its members would have the first one, and how many they are.
+    let mut groups: Vec<(f64, usize)> = Vec::new();
+    for &place in places.iter() {
+        let mut group = (place, 1);
+        while let Some(&(sum, count)) = groups.last() {
+            let (first, length) = (sum / count as f64, count as f64 * distance);
+            if group.0 / group.1 as f64 >= first + length {
+                break;
+            }
+            groups.pop();
+            group = (sum + group.0 - group.1 as f64 * length, count + group.1);
+        }
+        groups.push(group);
+    }
+    let spread = groups.iter().flat_map(|&(sum, count)| {
+        (0..count).map(move |member| sum / count as f64 + member as f64 * distance)
+    });
+    places.iter_mut().zip(spread).for_each(|(place, new)| *place = new);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_pushed_apart_no_farther_than_they_must() {
+        let pushed = |mut places: Vec<f64>| {
+            push_apart(&mut places, 10.0);
+            places
+        };
+        assert_eq!(pushed(vec![0.0, 50.0]), [0.0, 50.0]);
+        assert_eq!(pushed(vec![20.0, 20.0]), [15.0, 25.0]);
+        assert_eq!(
+            pushed(vec![20.0, 20.0, 28.0, 90.0]),
+            [12.666666666666666, 22.666666666666664, 32.666666666666664, 90.0]
+        );
+    }
+}
