@@ -148,7 +148,8 @@ impl Twins {
     }
 }
 
-fn finer_view(view: &View) -> View {
+/// `view`, sampled in full and [`FINER`] times as finely.
+pub fn finer_view(view: &View) -> View {
     let mut view = view.clone();
     view.sampling.tolerance = None;
     view.sampling.rate *= FINER;

@@ -74,6 +74,9 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let interrupt = Interrupt::listen();
     let run = arguments.sequence.open()?;
     let view = arguments.shown.resolve(&run.sequence)?;
+    if arguments.discretisation {
+        measure::finer_view(&view).validate().context("--discretisation")?;
+    }
     if let Some(folder) = &arguments.out {
         Output::Directory(folder.clone()).prepare()?;
     }

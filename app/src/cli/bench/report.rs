@@ -74,6 +74,19 @@ impl Report {
         })
     }
 
+    /// One line on what was measured where.
+    pub fn title(&self) -> String {
+        let Report { run, adapter, particles, frames, frames_asked, rounds, .. } = self;
+        let [width, height] = [self.view.image.width, self.view.image.height];
+        let frames = match frames == frames_asked {
+            true => frames.to_string(),
+            false => format!("{frames} of {frames_asked}"),
+        };
+        format!(
+            "{run}; frames: {frames}; rounds: {rounds}; particles: {particles}; {width} x {height} pixels; {adapter}"
+        )
+    }
+
     /// Writes the files. All are made before the first is written, so that there are all or none
     /// unless the disk fails.
     pub fn write(&self, folder: &Path) -> anyhow::Result<()> {

@@ -6,7 +6,7 @@ use super::summary::Summary;
 
 /// Times (the paper's table 2), errors (its table 3), and classes of cells.
 pub fn tables(report: &Report) -> String {
-    let mut text = heading(report);
+    let mut text = format!("{}\n", report.title());
     for (title, table) in [
         (TIMES, times(&report.settings)),
         (ERRORS, errors(&report.settings)),
@@ -15,16 +15,6 @@ pub fn tables(report: &Report) -> String {
         text += &format!("\n{title}\n{}", aligned(&table));
     }
     text + &full_sampling(&report.settings[0])
-}
-
-fn heading(report: &Report) -> String {
-    let Report { run, adapter, backend, particles, frames, frames_asked, rounds, .. } = report;
-    let image = report.view.image;
-    format!(
-        "{run}: {frames} of {frames_asked} frames, {particles} particles, {} x {} pixels, timed {rounds} times\n\
-         {adapter} ({backend})\n",
-        image.width, image.height
-    )
 }
 
 const TIMES: &str = "\
@@ -98,12 +88,12 @@ fn cells(settings: &[Summary]) -> Vec<Row> {
 
 /// What is known of full sampling only.
 fn full_sampling(full: &Summary) -> String {
-    let evaluations = &full.evaluations;
-    let mut text = format!(
-        "\nFull sampling: {} evaluations a second, {} % of them with a weight above zero\n",
-        number(evaluations.per_second, scientific),
-        percent(evaluations.inside, 1),
-    );
+    let rate = number(full.evaluations.per_second, scientific);
+    let mut text = format!("\nFull sampling: {rate} evaluations a second");
+    if full.evaluations.inside.is_finite() {
+        text += &format!(", {} % of them with a weight above zero", percent(full.evaluations.inside, 1));
+    }
+    text += "\n";
     if full.discretisation.max.is_finite() {
         text += &format!(
             "Discretisation: sampled {} times as fine, the picture changes by {} at most and {} on average\n",
@@ -156,12 +146,24 @@ fn scientific(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::bench::settings::Setting;
+    use crate::cli::view::Tolerance;
 
     #[test]
     fn columns_stand_under_each_other() {
         let row = |cells: [&str; 3]| header(&cells);
         let table = [row(["setting", "grid", ""]), row(["full", "123.4", "!"]), row(["0.001 x", "7", ""])];
         assert_eq!(aligned(&table), "setting   grid\nfull     123.4  !\n0.001 x      7\n");
+    }
+
+    #[test]
+    fn an_error_above_the_tolerance_stands_out() {
+        let [full, adaptive] = &Setting::list(&[Tolerance(Some(0.004))], false)[..] else { panic!() };
+        let mut summaries = [full, adaptive].map(|setting| Summary::new(&[], setting, 0));
+        let loud = |summaries: &[Summary]| aligned(&errors(summaries)).contains("ABOVE THE TOLERANCE");
+        assert!(!loud(&summaries));
+        summaries[1].error.frames_above = Some(1);
+        assert!(loud(&summaries));
     }
 
     #[test]

@@ -16,7 +16,10 @@ enum Scale {
     Linear,
     /// Linear, with marks at whole numbers only.
     Whole,
-    Log,
+    /// With a mark for `floor` and all below, where the axis begins there.
+    Log {
+        floor: f64,
+    },
 }
 
 /// Marks to aim at.
@@ -31,26 +34,25 @@ impl Axis {
         Axis { title, scale: Scale::Linear, range: [0.0, (most / step).ceil() * step], ends }
     }
 
-    /// From the smallest of the whole numbers `values` to the largest, with room for one alone.
+    /// From the smallest of the whole numbers `values` to the largest.
     pub fn whole(title: &'static str, values: impl Iterator<Item = usize>, ends: [f64; 2]) -> Axis {
         let (least, most) =
             values.fold((usize::MAX, 0), |(least, most), value| (least.min(value), most.max(value)));
-        let margin = if least >= most { 1.0 } else { 0.02 * (most - least) as f64 };
-        Axis { title, scale: Scale::Whole, range: [least as f64 - margin, most as f64 + margin], ends }
+        Axis { title, scale: Scale::Whole, range: [least as f64 - 0.5, most as f64 + 0.5], ends }
     }
 
-    /// Around the positive ones of `values`; others are placed at its beginning.
-    pub fn log(title: &'static str, values: impl Iterator<Item = f64>, ends: [f64; 2]) -> Axis {
-        let values = values.filter(|value| value.is_finite() && *value > 0.0);
-        let (least, most) =
-            values.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), x| (least.min(x), most.max(x)));
-        let (least, most) = if least > most { (1e-3, 1.0) } else { (least, most) };
-        Axis { title, scale: Scale::Log, range: [least / 1.5, most * 1.5], ends }
+    /// Around `values`, but not below `floor`, where all smaller ones are placed.
+    pub fn log(title: &'static str, values: impl Iterator<Item = f64>, floor: f64, ends: [f64; 2]) -> Axis {
+        let (least, most) = values
+            .filter(|value| value.is_finite())
+            .fold((f64::INFINITY, floor), |(least, most): (f64, f64), x| (least.min(x), most.max(x)));
+        let least = if least > floor && least <= most { (least / 1.5).max(floor) } else { floor };
+        Axis { title, scale: Scale::Log { floor }, range: [least, most * 1.5], ends }
     }
 
     /// Where `value` stands, in pixels; what is beyond an end stands there.
     pub fn place(&self, value: f64) -> f64 {
-        let on = |value: f64| if self.scale == Scale::Log { value.ln() } else { value };
+        let on = |value: f64| if matches!(self.scale, Scale::Log { .. }) { value.ln() } else { value };
         let [low, high] = self.range.map(on);
         let share = ((on(value) - low) / (high - low)).clamp(0.0, 1.0);
         self.ends[0] + share * (self.ends[1] - self.ends[0])
@@ -59,16 +61,25 @@ impl Axis {
     /// Round values with their labels.
     pub fn marks(&self) -> Vec<(f64, String)> {
         let [low, high] = self.range;
-        let values: Vec<f64> = match self.scale {
-            Scale::Log => log_marks(low, high),
-            scale => {
-                let step = step(high - low).max(if scale == Scale::Whole { 1.0 } else { 0.0 });
-                let first = (low / step).ceil() as i64;
-                (first..=((high / step + 1e-9).floor() as i64)).map(|i| i as f64 * step).collect()
-            }
+        let values = match self.scale {
+            Scale::Linear => multiples(step(high - low), low, high),
+            Scale::Whole => multiples(step(high - low).max(1.0), low, high),
+            Scale::Log { .. } => log_marks(low, high),
         };
-        values.into_iter().map(|value| (value, label(value))).collect()
+        let label = |value| match self.scale {
+            Scale::Log { floor } if value <= floor => format!("≤ {}", label(floor)),
+            _ => label(value),
+        };
+        let begin = matches!(self.scale, Scale::Log { floor } if low == floor).then_some(low);
+        let others = values.into_iter().filter(|value| begin.is_none_or(|begin| *value > 1.5 * begin));
+        begin.into_iter().chain(others).map(|value| (value, label(value))).collect()
     }
+}
+
+/// Multiples of `step` from `low` to `high`.
+fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
+    let [first, last] = [(low / step).ceil(), (high / step + 1e-9).floor()];
+    (first as i64..=last as i64).map(|i| i as f64 * step).collect()
 }
 
 /// 1, 2 or 5 times a power of ten, so that about [`MARKS`] of it make the `width`.
@@ -112,10 +123,10 @@ mod tests {
         assert_eq!(labels(&axis), ["0", "10", "20", "30", "40", "50"]);
         assert_eq!(labels(&Axis::from_zero("", [0.7].into_iter(), ends)), ["0", "0.2", "0.4", "0.6", "0.8"]);
         assert_eq!(labels(&Axis::whole("", [4, 6].into_iter(), ends)), ["4", "5", "6"]);
-        assert_eq!(labels(&Axis::whole("", [0].into_iter(), ends)), ["-1", "0", "1"]);
-        let axis = Axis::log("", [0.001, 0.01].into_iter(), ends);
-        assert_eq!(labels(&axis), ["0.001", "0.002", "0.005", "0.01"]);
-        assert_eq!(labels(&Axis::log("", [1e-6, 1e-2].into_iter(), ends))[0], "1e-6");
+        assert_eq!(labels(&Axis::whole("", [7].into_iter(), ends)), ["7"]);
+        let log = |values: [f64; 2], floor| labels(&Axis::log("", values.into_iter(), floor, ends));
+        assert_eq!(log([0.001, 0.01], 1e-5), ["0.001", "0.002", "0.005", "0.01"]);
+        assert_eq!(log([0.0, 0.01], 1e-5), ["≤ 1e-5", "0.0001", "0.001", "0.01"]);
     }
 
     #[test]
@@ -123,10 +134,10 @@ mod tests {
         let ends = [100.0, 0.0];
         let linear = Axis::from_zero("", [10.0].into_iter(), ends);
         assert_eq!([0.0, 5.0, 10.0, 99.0].map(|value| linear.place(value)), [100.0, 50.0, 0.0, 0.0]);
-        let log = Axis::log("", [0.0, 0.1, 10.0].into_iter(), ends);
+        let log = Axis::log("", [0.0, 10.0 / 1.5].into_iter(), 0.1, ends);
         assert!((log.place(1.0) - 50.0).abs() < 1e-9);
-        assert_eq!(log.place(0.0), 100.0);
-        let nothing = Axis::log("", std::iter::empty(), ends);
+        assert_eq!([0.0, 0.1, 99.0].map(|value| log.place(value)), [100.0, 100.0, 0.0]);
+        let nothing = Axis::log("", std::iter::empty(), 1e-3, ends);
         assert!(nothing.place(0.1).is_finite() && !nothing.marks().is_empty());
     }
 }

@@ -7,7 +7,9 @@ use super::axis::Axis;
 const SIZE: [f64; 2] = [860.0, 460.0];
 /// Places of the ends of the axes; the rest is for titles and labels.
 pub const X_ENDS: [f64; 2] = [76.0, 640.0];
-pub const Y_ENDS: [f64; 2] = [400.0, 74.0];
+pub const Y_ENDS: [f64; 2] = [386.0, 92.0];
+const NOTE: &str = r##"fill="#666""##;
+const NOTE_SMALL: &str = r##"fill="#666" font-size="11""##;
 /// From one label to the next, at least.
 const LINE: f64 = 17.0;
 
@@ -30,14 +32,25 @@ struct Label {
     y: f64,
     text: String,
     style: Style,
+    key: Key,
+}
+
+/// What leads from a label to what it names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Key {
+    /// A stroke to the end of a line.
+    Stroke,
+    /// A dot of the same looks.
+    Dot,
 }
 
 impl Chart {
-    pub fn new(title: &str, note: &str, x: Axis, y: Axis) -> Chart {
+    pub fn new([title, note, footer]: [&str; 3], x: Axis, y: Axis) -> Chart {
         let mut chart = Chart { x, y, body: String::new(), labels: Vec::new() };
         let left = X_ENDS[0];
-        chart.text([left, 28.0], r#"class="title""#, title);
-        chart.text([left, 49.0], r#"class="note""#, note);
+        chart.text([left, 28.0], r##"font-size="17" font-weight="bold" fill="#111""##, title);
+        chart.text([left, 49.0], NOTE, note);
+        chart.text([left, 450.0], NOTE_SMALL, footer);
         chart.axes();
         chart
     }
@@ -55,10 +68,9 @@ impl Chart {
             self.text([x, bottom + 20.0], r#"text-anchor="middle""#, &label);
         }
         self.stroke([[left, bottom], [right, bottom]], r##"stroke="#888""##);
-        let middle = [(left + right) / 2.0, (bottom + top) / 2.0];
-        self.text([middle[0], bottom + 44.0], r#"text-anchor="middle""#, self.x.title);
-        let turned = format!(r#"text-anchor="middle" transform="rotate(-90 20 {})""#, middle[1]);
-        self.text([20.0, middle[1]], &turned, self.y.title);
+        self.text([(left + right) / 2.0, bottom + 40.0], r#"text-anchor="middle""#, self.x.title);
+        // Not turned upright: text is read faster as it stands.
+        self.text([left, top - 14.0], "", self.y.title);
     }
 
     /// Through `points`, in units of the axes, with a dot at each where `dots`.
@@ -72,13 +84,8 @@ impl Chart {
         }
     }
 
-    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, Style { colour, dashes }: Style) {
-        let fill = if dashes.is_empty() { colour } else { "white" };
-        let (x, y) = (self.x.place(x), self.y.place(y));
-        let _ = writeln!(
-            self.body,
-            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{radius}" fill="{fill}" stroke="{colour}" stroke-width="1.6"/>"#
-        );
+    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, style: Style) {
+        self.circle([self.x.place(x), self.y.place(y)], radius, style);
     }
 
     /// A thin line between two points; dotted for a limit, solid for a spread.
@@ -91,12 +98,12 @@ impl Chart {
     /// A short upright line: where something ends.
     pub fn tick(&mut self, [x, y]: [f64; 2], colour: &str) {
         let [x, y] = [self.x.place(x), self.y.place(y)];
-        self.stroke([[x, y - 5.0], [x, y + 5.0]], &format!(r#"stroke="{colour}" stroke-width="1.6""#));
+        self.stroke([[x, y - 7.0], [x, y + 7.0]], &format!(r#"stroke="{colour}" stroke-width="1.6""#));
     }
 
-    /// Names what ends at the right at the height of `y`.
-    pub fn label(&mut self, y: f64, text: String, style: Style) {
-        self.labels.push(Label { y: self.y.place(y), text, style });
+    /// Names, at the right, what stands at the height of `y`.
+    pub fn label(&mut self, y: f64, text: &str, style: Style, key: Key) {
+        self.labels.push(Label { y: self.y.place(y), text: text.to_owned(), style, key });
     }
 
     /// The whole file.
@@ -105,7 +112,6 @@ impl Chart {
         let [width, height] = SIZE;
         format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" font-family="Helvetica, Arial, 'DejaVu Sans', sans-serif" font-size="13" fill="#333">
-<style>.title {{ font-size: 17px; font-weight: bold; fill: #111 }} .note {{ fill: #666 }}</style>
 <rect width="{width}" height="{height}" fill="white"/>
 {}</svg>
 "##,
@@ -118,16 +124,28 @@ impl Chart {
         let mut labels = std::mem::take(&mut self.labels);
         labels.sort_by(|a, b| a.y.total_cmp(&b.y));
         let mut heights: Vec<f64> = labels.iter().map(|label| label.y).collect();
-        push_apart(&mut heights, LINE);
+        let room = (Y_ENDS[0] - Y_ENDS[1]) / labels.len().max(1) as f64;
+        push_apart(&mut heights, LINE.min(room));
         let left = X_ENDS[1];
-        for (Label { y, text, style }, height) in labels.into_iter().zip(heights) {
-            self.stroke([[left + 4.0, y], [left + 22.0, height]], &stroke(style, 1.3));
+        for (Label { y, text, style, key }, height) in labels.into_iter().zip(heights) {
+            match key {
+                Key::Stroke => self.stroke([[left + 4.0, y], [left + 22.0, height]], &stroke(style, 1.3)),
+                Key::Dot => self.circle([left + 17.0, height], 4.0, style),
+            }
             self.text([left + 28.0, height + 4.5], &format!(r#"fill="{}""#, style.colour), &text);
         }
     }
 
     fn at(&self, x: f64, y: f64) -> String {
         format!("{:.1},{:.1}", self.x.place(x), self.y.place(y))
+    }
+
+    fn circle(&mut self, [x, y]: [f64; 2], radius: f64, Style { colour, dashes }: Style) {
+        let fill = if dashes.is_empty() { colour } else { "white" };
+        let _ = writeln!(
+            self.body,
+            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{radius}" fill="{fill}" stroke="{colour}" stroke-width="1.6"/>"#
+        );
     }
 
     fn stroke(&mut self, [[x1, y1], [x2, y2]]: [[f64; 2]; 2], how: &str) {
@@ -146,7 +164,8 @@ fn stroke(Style { colour, dashes }: Style, width: f64) -> String {
     format!(r#"stroke="{colour}" stroke-width="{width}"{dashes}"#)
 }
 
-/// Moves ascending `places` so far that each two are `distance` apart, groups of them to both sides alike.
+/// Moves ascending `places` so far that each two are `distance` apart, groups of them to both sides
+/// alike, and none beyond the axis.
 fn push_apart(places: &mut [f64], distance: f64) {
     // Of each group: the sum of where its members would have the first one, and how many they are.
     let mut groups: Vec<(f64, usize)> = Vec::new();
@@ -165,7 +184,12 @@ fn push_apart(places: &mut [f64], distance: f64) {
     let spread = groups.iter().flat_map(|&(sum, count)| {
         (0..count).map(move |member| sum / count as f64 + member as f64 * distance)
     });
-    places.iter_mut().zip(spread).for_each(|(place, new)| *place = new);
+    let [bottom, top] = Y_ENDS;
+    let count = places.len();
+    for (index, (place, new)) in places.iter_mut().zip(spread).enumerate() {
+        let [above, below] = [index, count - 1 - index].map(|others| others as f64 * distance);
+        *place = new.min(bottom - below).max(top + above);
+    }
 }
 
 #[cfg(test)]
@@ -178,11 +202,11 @@ mod tests {
             push_apart(&mut places, 10.0);
             places
         };
-        assert_eq!(pushed(vec![0.0, 50.0]), [0.0, 50.0]);
-        assert_eq!(pushed(vec![20.0, 20.0]), [15.0, 25.0]);
-        assert_eq!(
-            pushed(vec![20.0, 20.0, 28.0, 90.0]),
-            [12.666666666666666, 22.666666666666664, 32.666666666666664, 90.0]
-        );
+        assert_eq!(pushed(vec![200.0, 250.0]), [200.0, 250.0]);
+        assert_eq!(pushed(vec![220.0, 220.0]), [215.0, 225.0]);
+        assert_eq!(pushed(vec![220.0, 220.0, 226.0, 300.0]), [212.0, 222.0, 232.0, 300.0]);
+        let [bottom, top] = Y_ENDS;
+        assert_eq!(pushed(vec![bottom, bottom]), [bottom - 10.0, bottom]);
+        assert_eq!(pushed(vec![top, top]), [top, top + 10.0]);
     }
 }
