@@ -36,8 +36,7 @@ impl Setting {
                 continue;
             }
             seen.push(tolerance);
-            let tolerance = Some(tolerance);
-            let name = tolerance.map(|e| e.to_string()).unwrap_or_default();
+            let (name, tolerance) = (tolerance.to_string(), Some(tolerance));
             settings.push(Setting { name: name.clone(), tolerance, ablation: None });
             let ablations = ABLATIONS.iter().filter(|_| with_ablations).map(|ablation| Setting {
                 name: format!("{name} {}", ablation.name),
