@@ -3,6 +3,7 @@
 #[path = "support/files.rs"]
 mod files;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -85,7 +86,8 @@ fn files_in(folder: &Path) -> Vec<String> {
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = folder();
-    for command in [&["--help"][..], &["render", "--help"], &["info", "--help"], &["compare", "--help"]] {
+    let commands = ["render", "bench", "info", "compare"].map(|command| vec![command, "--help"]);
+    for command in commands.iter().map(Vec::as_slice).chain([&["--help"][..]]) {
         let help = sphcast(folder.path(), command);
         assert_eq!(help.status, 0);
         assert!(help.out.contains("Example") && help.out.contains("  sphcast "), "{command:?}: {}", help.out);
@@ -108,6 +110,9 @@ fn wrong_arguments_give_status_2() {
         &["render", "one.vtk", "--out", "a.png", "--frames", "0..2"],
         &["render", "one.vtk", "--out", "a.jpg"],
         &["render", "run", "--out", "a.png"],
+        &["bench", "one.vtk", "--tolerances", "0.1,2"],
+        &["bench", "one.vtk", "--rounds", "0"],
+        &["bench", "one.vtk", "--frames", "0..2"],
         &["info"],
         &["compare", "a.png"],
         &["--no-such-flag"],
@@ -254,4 +259,91 @@ fn a_picture_is_written_whole_or_not_at_all() {
     let unknown = sphcast(folder.path(), &["render", "one.vtk", "--quantity", "dye", "--out", "a.png"]);
     assert_eq!(unknown.error(), "one.vtk: there is no field `dye`; there are: concentration");
     assert_eq!(files_in(folder.path()), ["one.vtk", "run", "taken.png"]);
+}
+
+/// The rows of a CSV file without quotes, each a map from column to cell.
+fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let row = |cells: Vec<String>| {
+        assert_eq!(cells.len(), names.len(), "{cells:?}");
+        names.iter().cloned().zip(cells).collect()
+    };
+    lines.map(row).collect()
+}
+
+/// Whether a cell of a CSV says what its place in the JSON says.
+fn agree(cell: &str, value: &serde_json::Value) -> bool {
+    match value {
+        serde_json::Value::Null => cell.is_empty(),
+        serde_json::Value::String(text) => cell == text,
+        number => cell.parse::<f64>().ok() == number.as_f64(),
+    }
+}
+
+#[test]
+fn a_bench_writes_tables_that_agree_and_plots() {
+    let folder = folder();
+    let arguments = ["bench", "demo", "--frames", "3..5", "--size", "40x32", "--rounds", "2", "--ablations"];
+    let more = ["--tolerances", "0.01", "--discretisation", "--out", "results"];
+    let bench = sphcast(folder.path(), &[&arguments[..], &more].concat());
+    assert_eq!((bench.status, bench.err.as_str()), (0, ""));
+    let results = folder.path().join("results");
+    let plots = ["error-over-frames.svg", "time-against-error.svg", "time-over-frames.svg"];
+    assert_eq!(
+        files_in(&results),
+        [&["bench.json"], &plots[..1], &["frames.csv", "settings.csv"], &plots[1..]].concat()
+    );
+    for plot in plots {
+        let text = fs::read_to_string(results.join(plot)).unwrap();
+        assert!(text.starts_with("<svg") && text.ends_with("</svg>\n") && !text.contains("NaN"), "{plot}");
+    }
+
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(results.join("bench.json")).unwrap()).unwrap();
+    assert_eq!((&json["complete"], &json["frames"]), (&true.into(), &2.into()));
+    for (table, file, count) in [("settings", "settings.csv", 3), ("by_frame", "frames.csv", 6)] {
+        let rows = rows(&results.join(file));
+        assert_eq!((rows.len(), json[table].as_array().unwrap().len()), (count, count), "{file}");
+        for (row, value) in rows.iter().zip(json[table].as_array().unwrap()) {
+            for (column, cell) in row {
+                let value = column.split('.').fold(value, |value, key| &value[key]);
+                assert!(agree(cell, value), "{file}: {column}: {cell} and {value}");
+            }
+            // Every picture was rendered, from the grid to the last ray.
+            for time in ["milliseconds.grid.lower", "milliseconds.ray_cast.lower"] {
+                assert!(row[time].parse::<f64>().unwrap() > 0.0, "{file}: {time}");
+            }
+            assert!(bench.out.contains(&format!("\n{} ", row["setting"])), "{}", bench.out);
+        }
+    }
+    let [full, adaptive, ablation] = [0, 1, 2].map(|row| &json["settings"][row]);
+    assert_eq!(
+        [full, adaptive, ablation].map(|row| row["tolerance"].as_f64()),
+        [None, Some(0.01), Some(0.01)]
+    );
+    assert!(adaptive["error"]["max"].as_f64().unwrap() <= 0.01);
+    assert!(adaptive["milliseconds"]["analysis"]["lower"].as_f64().unwrap() > 0.0);
+    assert!(full["evaluations"]["inside"].as_f64().unwrap() > 0.0);
+    assert!(full["discretisation"]["max"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn a_bench_goes_on_after_a_bad_frame() {
+    let folder = folder();
+    let arguments =
+        ["bench", "run", "--size", "16x16", "--rounds", "1", "--tolerances", "0.01", "--out", "b"];
+    let bench = sphcast(folder.path(), &arguments);
+    assert_eq!(bench.status, 1);
+    assert_eq!(bench.error(), "run/frame_2.vtk: not measured: 1 of 3 frames failed");
+    assert!(bench.err.contains("warning: not complete: 2 of 3 frames"), "{}", bench.err);
+    let numbers: Vec<String> =
+        rows(&folder.path().join("b/frames.csv")).into_iter().map(|row| row["frame"].clone()).collect();
+    assert_eq!(numbers, ["0", "0", "2", "2"]);
+
+    let nothing = sphcast(folder.path(), &["bench", "run/frame_2.vtk", "--out", "nothing"]);
+    assert_eq!(nothing.status, 1);
+    assert!(nothing.error().starts_with("run/frame_2.vtk: ") && nothing.out.is_empty(), "{}", nothing.err);
+    assert!(files_in(&folder.path().join("nothing")).is_empty());
 }

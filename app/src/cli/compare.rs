@@ -67,7 +67,8 @@ pub fn run(arguments: &CompareArguments) -> anyhow::Result<()> {
     }
 }
 
-fn difference(a: &Pixels, b: &Pixels, tolerance: f64) -> Difference {
+/// How far two pictures of one size differ.
+pub fn difference(a: &Pixels, b: &Pixels, tolerance: f64) -> Difference {
     let (mut max, mut place, mut sum, mut above) = (0.0, 0, 0.0, 0_usize);
     for (index, (a, b)) in a.data.iter().zip(&b.data).enumerate() {
         let channels: [f64; 4] = std::array::from_fn(|c| channel_difference(a[c], b[c]));

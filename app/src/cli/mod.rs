@@ -1,6 +1,8 @@
 //! The command line (contract, section 3).
 
+mod bench;
 mod compare;
+mod film;
 mod info;
 mod interrupt;
 mod output;
@@ -13,13 +15,14 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use anyhow::Context;
 use clap::{Parser, Subcommand};
-use renderer::GpuOptions;
+use renderer::{Gpu, GpuOptions};
 
 use crate::frames::{FrameRange, Sequence};
 use crate::viewer;
 
-pub use view::ViewArguments;
+pub use view::{ShownArguments, ViewArguments};
 
 /// Desktop viewer for SPH particle runs: ray casts the particles themselves on the GPU, with a
 /// bound on the error of the picture.
@@ -45,6 +48,7 @@ Examples:
 #[derive(Subcommand)]
 enum Command {
     Render(render::RenderArguments),
+    Bench(bench::BenchArguments),
     Info(info::InfoArguments),
     Compare(compare::CompareArguments),
 }
@@ -76,6 +80,10 @@ impl DeviceArguments {
     fn options(&self) -> GpuOptions {
         GpuOptions { adapter: self.adapter.clone(), memory: None }
     }
+
+    fn open(&self) -> anyhow::Result<Gpu> {
+        Gpu::new(&self.options()).context(if self.adapter.is_some() { "--adapter" } else { "sphcast" })
+    }
 }
 
 /// The frames that a command works on.
@@ -96,6 +104,12 @@ struct Run {
 }
 
 impl SequenceArguments {
+    /// The run, as the user calls it.
+    fn name(&self) -> String {
+        let names: Vec<_> = self.files.iter().map(|file| file.to_string_lossy()).collect();
+        names.join(" ")
+    }
+
     fn open(&self) -> anyhow::Result<Run> {
         let mut sequence = Sequence::open(&self.files)?;
         for note in sequence.notes() {
@@ -129,6 +143,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> ExitCode {
     let result = match &arguments.command {
         None => open_window(&arguments.window),
         Some(Command::Render(arguments)) => render::run(arguments),
+        Some(Command::Bench(arguments)) => bench::run(arguments),
         Some(Command::Info(arguments)) => info::run(arguments),
         Some(Command::Compare(arguments)) => compare::run(arguments),
     };
@@ -150,7 +165,7 @@ fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
     viewer::run(viewer::Options {
         sequence,
         view,
-        fixed_size: arguments.view.size.is_some() || arguments.view.view.is_some(),
+        fixed_size: arguments.view.shown.size.is_some() || arguments.view.shown.view.is_some(),
         // Who opens no run wants to see what this is.
         playing: arguments.files.is_empty(),
         gpu: arguments.device.options(),

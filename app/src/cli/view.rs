@@ -10,15 +10,22 @@ use crate::view_file;
 /// What defines a picture: a file, and flags that go before it.
 #[derive(clap::Args)]
 pub struct ViewArguments {
+    #[command(flatten)]
+    pub shown: ShownArguments,
+    /// Largest error of any channel of any pixel against full sampling, 0 to 1; `off` for full sampling
+    #[arg(long, value_name = "E|off", value_parser = tolerance)]
+    pub tolerance: Option<Tolerance>,
+}
+
+/// What defines a picture, except for how far it may be from full sampling.
+#[derive(clap::Args)]
+pub struct ShownArguments {
     /// Camera, colours and all other settings of the picture
     #[arg(long, value_name = "view.json")]
     pub view: Option<PathBuf>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[u32; 2]>,
-    /// Largest error of any channel of any pixel against full sampling, 0 to 1; `off` for full sampling
-    #[arg(long, value_name = "E|off", value_parser = tolerance)]
-    pub tolerance: Option<Tolerance>,
     /// How far the guarantee may be relaxed for speed, 0 (not at all) to 1
     #[arg(long, value_name = "R", value_parser = unit)]
     pub relaxation: Option<f64>,
@@ -38,6 +45,17 @@ pub struct ViewArguments {
 pub struct Tolerance(pub Option<f64>);
 
 impl ViewArguments {
+    /// As [`ShownArguments::resolve`], with the tolerance put in.
+    pub fn resolve(&self, sequence: &Sequence) -> anyhow::Result<View> {
+        let mut view = self.shown.resolve(sequence)?;
+        if let Some(Tolerance(tolerance)) = self.tolerance {
+            view.sampling.tolerance = tolerance;
+        }
+        Ok(view)
+    }
+}
+
+impl ShownArguments {
     /// The view to show `sequence` with: the file's, or the demo's own, or the default, with the flags put in.
     ///
     /// # Errors
@@ -50,9 +68,6 @@ impl ViewArguments {
         };
         if let Some([width, height]) = self.size {
             (view.image.width, view.image.height) = (width, height);
-        }
-        if let Some(Tolerance(tolerance)) = self.tolerance {
-            view.sampling.tolerance = tolerance;
         }
         view.sampling.relaxation = self.relaxation.unwrap_or(view.sampling.relaxation);
         view.quantity.name = self.quantity.clone().or(view.quantity.name);
@@ -72,7 +87,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     }
 }
 
-fn tolerance(text: &str) -> Result<Tolerance, String> {
+pub fn tolerance(text: &str) -> Result<Tolerance, String> {
     match text {
         "off" => Ok(Tolerance(None)),
         number => match unit(number) {

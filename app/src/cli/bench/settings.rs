@@ -1,0 +1,90 @@
+//! What is compared: full sampling, and one way or another to sample less.
+
+use renderer::View;
+
+use crate::cli::view::Tolerance;
+
+/// One way to sample.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// As tables and figures call it.
+    pub name: String,
+    /// `None` for full sampling.
+    pub tolerance: Option<f64>,
+    pub ablation: Option<&'static Ablation>,
+}
+
+/// A part of the method that can be taken away, to see what it is worth.
+#[derive(Debug)]
+pub struct Ablation {
+    pub name: &'static str,
+    change: fn(&mut View),
+}
+
+/// A line for each: its name, and what it changes in the view.
+const ABLATIONS: [Ablation; 1] =
+    [Ablation { name: "no super-pixels", change: |view| view.sampling.super_pixels = false }];
+
+impl Setting {
+    /// Full sampling, which all others are measured against, and then each of `tolerances`, followed by
+    /// its ablations.
+    pub fn list(tolerances: &[Tolerance], with_ablations: bool) -> Vec<Setting> {
+        let mut settings = vec![Setting { name: "full".to_owned(), tolerance: None, ablation: None }];
+        let mut seen = Vec::new();
+        for tolerance in tolerances.iter().filter_map(|tolerance| tolerance.0) {
+            if seen.contains(&tolerance) {
+                continue;
+            }
+            seen.push(tolerance);
+            let (name, tolerance) = (tolerance.to_string(), Some(tolerance));
+            settings.push(Setting { name: name.clone(), tolerance, ablation: None });
+            let ablations = ABLATIONS.iter().filter(|_| with_ablations).map(|ablation| Setting {
+                name: format!("{name} {}", ablation.name),
+                tolerance,
+                ablation: Some(ablation),
+            });
+            settings.extend(ablations);
+        }
+        settings
+    }
+
+    /// `view`, sampled this way.
+    pub fn view(&self, view: &View) -> View {
+        let mut view = view.clone();
+        view.sampling.tolerance = self.tolerance;
+        if let Some(ablation) = self.ablation {
+            (ablation.change)(&mut view);
+        }
+        view
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(tolerances: &[Option<f64>], with_ablations: bool) -> Vec<String> {
+        let tolerances: Vec<Tolerance> = tolerances.iter().copied().map(Tolerance).collect();
+        Setting::list(&tolerances, with_ablations).into_iter().map(|setting| setting.name).collect()
+    }
+
+    #[test]
+    fn full_sampling_comes_first_and_everything_once() {
+        assert_eq!(names(&[Some(0.01), None, Some(0.001), Some(0.01)], false), ["full", "0.01", "0.001"]);
+        assert_eq!(names(&[None], true), ["full"]);
+        assert_eq!(names(&[Some(0.01)], true).len(), 2 + ABLATIONS.len());
+    }
+
+    #[test]
+    fn every_ablation_changes_how_the_view_is_sampled_and_nothing_else() {
+        let view = View::default();
+        for setting in Setting::list(&[Tolerance(Some(0.25))], true).iter().skip(2) {
+            let mut changed = setting.view(&view);
+            let adaptive = View { sampling: changed.sampling, ..view.clone() };
+            assert_eq!(changed, adaptive, "{}", setting.name);
+            assert_eq!(changed.sampling.tolerance, Some(0.25));
+            changed.sampling.tolerance = view.sampling.tolerance;
+            assert_ne!(changed, view, "{}", setting.name);
+        }
+    }
+}
