@@ -10,15 +10,13 @@ use crate::kernel::Kernel;
 use crate::pace::Pace;
 use crate::picture::Picture;
 use crate::plan::{self, Tile, TileLimits};
+use crate::sampling::Sampling;
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
 use crate::stages::cast::Cast;
 use crate::stages::grid::Grid;
 use crate::stages::project::Project;
-use crate::sampling::Sampling;
-use crate::stages::shared::{
-    Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth,
-};
+use crate::stages::shared::{Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth};
 use crate::stats::{Milliseconds, Stats};
 use crate::tiles::Job;
 use crate::transfer::TransferFunction;
@@ -175,8 +173,13 @@ impl Renderer {
             }
         }
         let milliseconds = &mut picture.stats.milliseconds;
-        milliseconds.total = milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
-        picture.stats.gpu_bytes = self.store.bytes() + self.grid.bytes() + self.bundles.bytes() + self.adapt.bytes() + self.cast.bytes();
+        milliseconds.total =
+            milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
+        picture.stats.gpu_bytes = self.store.bytes()
+            + self.grid.bytes()
+            + self.bundles.bytes()
+            + self.adapt.bytes()
+            + self.cast.bytes();
         Ok(picture)
     }
 

@@ -167,7 +167,8 @@ impl Renderer {
             self.analyse(job, tile, size, budget, &mut |part| progress(0.25 * part), picture)?;
         }
         let begun = if budget.is_some() { 0.25 } else { 0.0 };
-        let uniforms = Uniforms { budget: budget.unwrap_or(0.0), stage: Stage::Cast, adapted: budget.is_some() };
+        let uniforms =
+            Uniforms { budget: budget.unwrap_or(0.0), stage: Stage::Cast, adapted: budget.is_some() };
         self.for_bundles(job, tile, uniforms, &mut |part| progress(begun + (1.0 - begun) * part), picture)?;
         self.fetch_tile(tile, size, budget.is_some(), picture)
     }
@@ -220,14 +221,13 @@ impl Renderer {
                 let (gpu, kernel, transfer, count) =
                     (&self.gpu, job.scene.kernel, &self.transfer, end - first);
                 match stage {
-                    Stage::Analysis => self
-                        .adapt
-                        .record(gpu, pass, kernel, bundles, uniforms, store, grid, transfer, count),
+                    Stage::Analysis => {
+                        self.adapt.record(gpu, pass, kernel, bundles, uniforms, store, grid, transfer, count)
+                    }
                     Stage::Cast => {
                         let plan = adapted.then_some(&self.adapt);
-                        self.cast.record(
-                            gpu, pass, kernel, bundles, uniforms, store, grid, transfer, plan, count,
-                        );
+                        self.cast
+                            .record(gpu, pass, kernel, bundles, uniforms, store, grid, transfer, plan, count);
                     }
                 }
             });
