@@ -36,7 +36,7 @@ fn a_device_lost_before_its_pipelines_is_noticed() {
 
 #[test]
 fn an_adapter_that_is_not_there_is_named_with_those_that_are() {
-    let options = GpuOptions { adapter: Some("Voodoo 2".into()), memory: None };
+    let options = GpuOptions { adapter: Some("Voodoo 2".into()), ..GpuOptions::default() };
     match Gpu::new(&options).map(drop) {
         Err(GpuError::NoSuchAdapter { wanted, found }) => {
             assert_eq!(wanted, "Voodoo 2");

@@ -6,11 +6,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use reference::Particle;
-use reference::device::{mismatch, particle_set, quantity, render, shared};
+use reference::compare::compare;
+use reference::device::{mismatch, open, particle_set, quantity, render, shared};
+use reference::guarantee::{alike_but_for_decisions, calm, try_out};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, grey};
-use renderer::{Kernel, ParticleSet, Quantity, RenderError, View};
+use renderer::{GpuOptions, Kernel, ParticleSet, Quantity, RenderError, View};
 
 /// A scene whose particles and quantity the renderer may recognise.
 struct Held {
@@ -37,6 +39,28 @@ impl Held {
         let (particles, view) = (self.particles.clone(), self.view.clone());
         let mismatch = mismatch(&Scene { name: what.to_owned(), particles, view }, &image);
         assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
+    }
+}
+
+/// Adaptive pictures: what was found out about an earlier picture is not there for a fresh renderer.
+impl Held {
+    /// Fails where the picture is not that of `fresh`, which has to begin at the beginning, or is not
+    /// within the tolerance of its full sampling.
+    fn assert_like_fresh(
+        &self,
+        renderer: &mut renderer::Renderer,
+        fresh: &mut renderer::Renderer,
+        what: &str,
+    ) {
+        let image = Image::from(&render(renderer, &self.scene()));
+        let (particles, mut view) = (self.particles.clone(), self.view.clone());
+        let tolerance = *view.sampling.tolerance.get_or_insert(0.0);
+        let trial = try_out(fresh, &Scene { name: what.to_owned(), particles, view });
+        assert_eq!(trial.violation(), None);
+        let error = compare(&Image::from(&trial.full), &image);
+        assert!(error.max < tolerance.max(1e-4), "{what}: {error}");
+        let change = compare(&Image::from(&trial.adaptive), &image);
+        assert!(alike_but_for_decisions(&change, tolerance), "{what}: {change}");
     }
 }
 
@@ -84,6 +108,43 @@ const CHANGES: [Change; 11] = [
         held.quantity = quantity(&held.set, &held.particles, &held.view);
     }),
 ];
+
+/// Changes of what may be saved.
+const SAMPLING_CHANGES: [Change; 5] = [
+    ("a tolerance of 0.001", |held| held.view.sampling.tolerance = Some(0.001)),
+    ("a tolerance of 0.01", |held| held.view.sampling.tolerance = Some(0.01)),
+    ("a tolerance of 0.1", |held| held.view.sampling.tolerance = Some(0.1)),
+    ("full sampling", |held| held.view.sampling.tolerance = None),
+    ("super-pixels on or off", |held| held.view.sampling.super_pixels ^= true),
+];
+
+#[test]
+fn adaptive_pictures_after_each_change_alone() {
+    let (mut renderer, mut fresh) = (shared(), open(&GpuOptions::default()));
+    for (what, change) in CHANGES.into_iter().chain(SAMPLING_CHANGES) {
+        let mut held = Held::new(calm(120, 42, 35));
+        held.assert_like_fresh(&mut renderer, &mut fresh, "the first picture");
+        change(&mut held);
+        held.assert_like_fresh(&mut renderer, &mut fresh, what);
+    }
+}
+
+#[test]
+fn adaptive_pictures_after_many_changes_in_any_order() {
+    let (mut renderer, mut fresh) = (shared(), open(&GpuOptions::default()));
+    let mut random = Random::new(121);
+    let mut held = Held::new(calm(122, 42, 35));
+    let mut history = String::new();
+    let changes = [&CHANGES[..], &SAMPLING_CHANGES].concat();
+    for _ in 0..60 {
+        for _ in 0..1 + random.below(3) {
+            let (what, change) = random.pick(&changes);
+            change(&mut held);
+            history = format!("{history}, {what}");
+        }
+        held.assert_like_fresh(&mut renderer, &mut fresh, &history);
+    }
+}
 
 #[test]
 fn after_each_change_alone() {

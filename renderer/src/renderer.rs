@@ -115,6 +115,9 @@ impl Renderer {
         };
         // Waits, since a device that is gone makes pipelines without a word.
         renderer.gpu.wait()?;
+        if let Some(text) = renderer.gpu.edits.unmade() {
+            return Err(RenderError::Device(format!("no shader has the text to be edited: {text}")));
+        }
         Ok(renderer)
     }
 

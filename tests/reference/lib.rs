@@ -17,8 +17,8 @@
 //! | [`floor`] | the one documented deviation: the sub-pixel floor of the support radius |
 //!
 //! Besides the twin: [`compare`] tells two pictures apart, [`margins`] says how near a ray comes to a
-//! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]), and [`device`] renders
-//! them on the machine's adapter.
+//! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]), [`device`] renders them
+//! on the machine's adapter, and [`guarantee`] tries whether adaptive sampling keeps its tolerance.
 
 pub mod camera;
 pub mod compare;
@@ -26,6 +26,7 @@ pub mod composite;
 pub mod device;
 pub mod floor;
 pub mod grid;
+pub mod guarantee;
 pub mod kernels;
 pub mod margins;
 pub mod neighbours;

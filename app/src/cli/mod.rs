@@ -78,7 +78,7 @@ pub struct DeviceArguments {
 
 impl DeviceArguments {
     fn options(&self) -> GpuOptions {
-        GpuOptions { adapter: self.adapter.clone(), memory: None }
+        GpuOptions { adapter: self.adapter.clone(), ..GpuOptions::default() }
     }
 
     fn open(&self) -> anyhow::Result<Gpu> {

@@ -1,6 +1,7 @@
 //! The device: what it is, what it can hold, and what went wrong on it.
 
 mod buffer;
+mod edits;
 mod pipeline;
 mod timing;
 
@@ -8,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub use buffer::Buffer;
 pub(crate) use buffer::Readback;
+use edits::ShaderEdits;
 pub use pipeline::{Access, Pipeline, PipelineDescription};
 pub(crate) use timing::Timing;
 
@@ -21,6 +23,10 @@ pub struct GpuOptions {
     /// Bytes of device memory that one tile of a picture may take; 4 GiB on a graphics card and 1 GiB
     /// elsewhere where it is `None`. Pictures that need more are rendered in tiles.
     pub memory: Option<u64>,
+    /// Texts in the shaders and what stands in their place: for tests of the tests. A text that no
+    /// shader has is an error of [`Renderer::new`](crate::Renderer::new).
+    #[doc(hidden)]
+    pub shader_edits: Vec<(String, String)>,
 }
 
 const GRAPHICS_CARD_MEMORY: u64 = 4 << 30;
@@ -34,6 +40,7 @@ pub struct Gpu {
     pub(crate) limits: wgpu::Limits,
     pub(crate) timestamps: bool,
     pub(crate) memory: u64,
+    pub(crate) edits: ShaderEdits,
     failures: Arc<Mutex<Failures>>,
 }
 
@@ -76,7 +83,8 @@ impl Gpu {
             wgpu::DeviceType::DiscreteGpu => GRAPHICS_CARD_MEMORY,
             _ => SHARED_MEMORY,
         });
-        Ok(Gpu { device, queue, info, limits, timestamps, memory, failures })
+        let edits = ShaderEdits::new(&options.shader_edits);
+        Ok(Gpu { device, queue, info, limits, timestamps, memory, edits, failures })
     }
 
     /// The adapter's name, as its driver gives it.

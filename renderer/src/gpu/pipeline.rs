@@ -40,7 +40,7 @@ impl Pipeline {
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(description.sources.concat().into()),
+            source: wgpu::ShaderSource::Wgsl(gpu.edits.apply(description.sources.concat()).into()),
         });
         let entries: Vec<_> = description.bindings.iter().enumerate().map(layout_entry).collect();
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {

@@ -1,0 +1,129 @@
+//! The tests of the guarantee would notice: each bound that is wrong on purpose makes some picture
+//! that breaks its promise.
+
+use reference::device::open;
+use reference::guarantee::{case, hard_cases, try_out};
+use reference::scenes::Scene;
+use renderer::{Gpu, GpuOptions, Kernel, RenderError, Renderer};
+
+/// What is wrong, and the texts of the shaders that make it so: from, to.
+struct Mutant {
+    what: &'static str,
+    edits: &'static [(&'static str, &'static str)],
+}
+
+/// Where a shader is rewritten, the text of its mutant is to follow.
+const MUTANTS: [Mutant; 14] = [
+    Mutant {
+        what: "the remainder of the expansion is dropped",
+        edits: &[("0.5 * reach * reach * jet.curvature + 1e-6 * jet.bend", "vec4(0.0)")],
+    },
+    Mutant {
+        what: "the gradient of the sums is dropped",
+        edits: &[("column.half_width * (abs(gradient_x) + abs(gradient_y))", "vec4(0.0)")],
+    },
+    Mutant {
+        what: "a brick is half as wide as it is",
+        edits: &[("let half_width = 0.5 * frame.pitch", "let half_width = 0.25 * frame.pitch")],
+    },
+    Mutant {
+        what: "a brick is one sample too short",
+        edits: &[("vec4(at[0].w, at[1].w, at[2].w, at[3].w)", "vec4(at[0].z, at[1].z, at[2].z, at[3].z)")],
+    },
+    Mutant {
+        what: "every sample is taken to meet a particle",
+        edits: &[("let covered = (values & COVERED) != 0u;", "let covered = true;")],
+    },
+    Mutant {
+        what: "the nodes between the ends of a range are overlooked",
+        edits: &[("if between > 0u {", "if between > 1000000u {")],
+    },
+    Mutant {
+        what: "values are rounded inward",
+        edits: &[
+            ("floor(low * LOW_STEPS * (1.0 - ROUNDING))", "ceil(low * LOW_STEPS)"),
+            ("ceil(high * HIGH_STEPS * (1.0 + ROUNDING))", "floor(high * HIGH_STEPS)"),
+        ],
+    },
+    Mutant {
+        what: "most particles of a cell are left out of its extremes",
+        edits: &[("place < end; place += COLUMNS", "place < min(end, cell.first + 4u); place += COLUMNS")],
+    },
+    Mutant {
+        what: "half of the charge",
+        edits: &[("select(charge, 0.0, thick == 0.0)", "select(0.5 * charge, 0.0, thick == 0.0)")],
+    },
+    Mutant {
+        what: "the lower bound of the transparency in place of the upper",
+        edits: &[("thick == 0.0), 1.0 - thin)", "thick == 0.0), 1.0 - thick)")],
+    },
+    Mutant {
+        what: "no light comes through from behind",
+        edits: &[("thick == 0.0), 1.0 - thin)", "thick == 0.0), 0.0)")],
+    },
+    Mutant {
+        what: "the largest charge in place of the sum",
+        edits: &[("        spent += more;", "        spent = max(spent, more);")],
+    },
+    Mutant { what: "half as much again as the budget", edits: &[("chunk.budget", "(1.5 * chunk.budget)")] },
+    Mutant {
+        what: "columns end early, free of charge",
+        edits: &[
+            ("front <= OCCLUDED * chunk.budget", "front <= 0.25"),
+            ("let ended = before <= OCCLUDED * chunk.budget", "let ended = before <= 0.25"),
+            ("front > OCCLUDED * chunk.budget", "front > 0.25"),
+            ("let budget = chunk.budget - reserve;", "let budget = chunk.budget;"),
+        ],
+    },
+];
+
+/// What every mutant is tried on, with one kernel: pipelines are made when they are first used.
+fn cases() -> impl Iterator<Item = Scene> {
+    hard_cases().into_iter().chain((0..60).map(case)).map(|mut scene| {
+        scene.view.particles.kernel = Kernel::Poly6;
+        scene
+    })
+}
+
+fn edited(edits: &[(&str, &str)]) -> GpuOptions {
+    let shader_edits = edits.iter().map(|(from, to)| (from.to_string(), to.to_string())).collect();
+    GpuOptions { shader_edits, ..GpuOptions::default() }
+}
+
+/// The first broken promise of a mutant.
+fn first_violation(mutant: &Mutant) -> Option<String> {
+    let mut renderer = open(&edited(mutant.edits));
+    cases().find_map(|scene| try_out(&mut renderer, &scene).violation())
+}
+
+#[test]
+fn every_mutant_is_noticed() {
+    let unnoticed: Vec<&str> = MUTANTS
+        .iter()
+        .filter_map(|mutant| match first_violation(mutant) {
+            Some(violation) => {
+                println!("{}: {violation}", mutant.what);
+                None
+            }
+            None => Some(mutant.what),
+        })
+        .collect();
+    assert!(unnoticed.is_empty(), "unnoticed: {}", unnoticed.join("; "));
+}
+
+#[test]
+fn without_a_mutant_nothing_is_noticed() {
+    let mut renderer = open(&GpuOptions::default());
+    let violations: Vec<String> =
+        cases().filter_map(|scene| try_out(&mut renderer, &scene).violation()).collect();
+    assert!(violations.is_empty(), "{}", violations.join("\n"));
+}
+
+#[test]
+fn an_edit_of_a_text_that_is_not_there_is_an_error() {
+    let gpu = Gpu::new(&edited(&[("no such text", "")])).expect("an adapter");
+    match Renderer::new(gpu).map(drop) {
+        Err(RenderError::Device(reason)) => assert!(reason.contains("no such text"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+}
