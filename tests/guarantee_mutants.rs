@@ -32,7 +32,7 @@ const MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         what: "every sample is taken to meet a particle",
-        edits: &[("let covered = (values & COVERED) != 0u;", "let covered = true;")],
+        edits: &[("let covered = values.y >= COVERED;", "let covered = true;")],
     },
     Mutant {
         what: "the nodes between the ends of a range are overlooked",
@@ -41,8 +41,8 @@ const MUTANTS: [Mutant; 14] = [
     Mutant {
         what: "values are rounded inward",
         edits: &[
-            ("floor(low * LOW_STEPS * (1.0 - ROUNDING))", "ceil(low * LOW_STEPS)"),
-            ("ceil(high * HIGH_STEPS * (1.0 + ROUNDING))", "floor(high * HIGH_STEPS)"),
+            ("reference + low - 2e-6", "reference + low + 2e-3"),
+            ("reference + high + 2e-6", "reference + high - 2e-3"),
         ],
     },
     Mutant {

@@ -188,8 +188,13 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
     return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
 }
 
-// The bricks' values.
-fn values_of(e: Expansion, column: Column, reference: f32) -> vec4<u32> {
+// Values of a column's bricks (shared/hull.wgsl): all lower bounds, all upper ones.
+struct ColumnValues {
+    low: vec4<f32>,
+    high: vec4<f32>,
+}
+
+fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let expanded = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     let covered = least_weight > 1e-4 * e.weight.value;
@@ -201,14 +206,12 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> vec4<u32> {
     let better = covered & (lower <= upper);
     let low = select(e.low, max(e.low, min(lower, e.high)), better);
     let high = select(e.high, min(e.high, max(upper, e.low)), better);
-    // Rounded outward by as much as the sum may be off.
-    let least = clamp(reference + low - 1e-6, vec4(0.0), vec4(1.0));
-    let greatest = clamp(reference + high + 1e-6, vec4(0.0), vec4(1.0));
-    let values = vec4(
-        pack_values(least.x, greatest.x, covered.x),
-        pack_values(least.y, greatest.y, covered.y),
-        pack_values(least.z, greatest.z, covered.z),
-        pack_values(least.w, greatest.w, covered.w),
+    // Rounded outward by as much as a sample's quantity may be off.
+    let least = clamp(reference + low - 2e-6, vec4(0.0), vec4(1.0));
+    let greatest = clamp(reference + high + 2e-6, vec4(0.0), vec4(1.0));
+    let empty = e.low > e.high;
+    return ColumnValues(
+        select(least, vec4(EMPTY.x), empty),
+        select(greatest + select(vec4(0.0), vec4(COVERED), covered), vec4(EMPTY.y), empty),
     );
-    return select(vec4(EMPTY), values, e.low <= e.high);
 }

@@ -8,13 +8,19 @@
 // A workgroup takes a bundle from front to back, four filled cells at a time: lane l has column
 // l mod 16 of the group's cell l/16, with its four bricks.
 
-// For each cell a slot + 2, 1 where only its extremes are known, or 0 for neither; and the values of
-// the cell as a whole.
-@group(0) @binding(12) var<storage, read_write> cell_values: array<vec2<u32>>;
+struct CellEntry {
+    // Values of the cell as a whole.
+    values: vec2<f32>,
+    // A slot + 2; 1 where only the values are known; 0 for neither.
+    slot: u32,
+    padding: u32,
+}
+
+@group(0) @binding(12) var<storage, read_write> cell_values: array<CellEntry>;
 @group(0) @binding(13) var<storage, read_write> slots_taken: atomic<u32>;
-// For each column of a slot: values of its bricks; what they charge, −1 where no light comes from; and
+// For each column of a slot: lower and upper values of its bricks; what they charge, −1 where no light comes from; and
 // the colour and opacity of their middles together.
-@group(0) @binding(14) var<storage, read_write> bricks: array<vec4<u32>>;
+@group(0) @binding(14) var<storage, read_write> bricks: array<ColumnValues>;
 @group(0) @binding(15) var<storage, read_write> charges: array<vec4<f32>>;
 @group(0) @binding(16) var<storage, read_write> shows: array<vec4<f32>>;
 // For each bundle of the tile the layer after the last one that is seen.
@@ -98,27 +104,30 @@ fn next_group(walk: ptr<function, Walk>, index: u32, end_layer: u32, number: u32
     return mine;
 }
 
-// Finds the extremes of the quantity in the cells that are not known yet.
-fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> u32 {
+// Values of the cells that are not known yet, from the quantities of their particles.
+fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> vec2<f32> {
+    // The bits of floats that are not negative are in their order.
     if column == 0u {
-        atomicStore(&cell_low[number], 0xffffu);
+        atomicStore(&cell_low[number], bitcast<u32>(FAR));
         atomicStore(&cell_high[number], 0u);
     }
     workgroupBarrier();
     let end = select(cell.first, cell.end, unknown);
-    var low = 0xffffu;
-    var high = 0u;
+    var low = FAR;
+    var high = 0.0;
     for (var place = cell.first + column; place < end; place += COLUMNS) {
         let quantity = quantities[pairs[place]];
         let u = clamp(quantity, 0.0, 1.0);
-        let values = select(pack_values(u, u, false), EMPTY, quantity > REJECTED);
-        low = min(low, values & 0xffffu);
-        high = max(high, values >> 16u);
+        low = select(min(low, u), low, quantity > REJECTED);
+        high = select(max(high, u), high, quantity > REJECTED);
     }
-    atomicMin(&cell_low[number], low);
-    atomicMax(&cell_high[number], high);
+    atomicMin(&cell_low[number], bitcast<u32>(low));
+    atomicMax(&cell_high[number], bitcast<u32>(high));
     workgroupBarrier();
-    return atomicLoad(&cell_low[number]) | atomicLoad(&cell_high[number]) << 16u;
+    let least = bitcast<f32>(atomicLoad(&cell_low[number]));
+    let greatest = bitcast<f32>(atomicLoad(&cell_high[number]));
+    let values = vec2(max(least - 2e-6, 0.0), min(greatest + 2e-6, 1.0));
+    return select(values, EMPTY, least > greatest);
 }
 
 fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
@@ -137,10 +146,13 @@ fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference
 }
 
 // Values of the lane's bricks from the particles of its cell, where it is `wanted`. All lanes together.
-fn expand(cell: Cell, wanted: bool, most: u32, axis: vec2<f32>, column: Column, lane: u32) -> vec4<u32> {
+//
+// Their quantities are taken relative to a value of the cell that does not depend on their order.
+fn expand(
+    cell: Cell, reference: f32, wanted: bool, most: u32, axis: vec2<f32>, column: Column, lane: u32,
+) -> ColumnValues {
     let depths = layer_depth[tile.first_layer + cell.layer];
     let middle = vec3(depths.x * axis, depths.y);
-    let reference = clamp(quantities[pairs[cell.first]], 0.0, 1.0);
     let end = select(cell.first, cell.end, wanted);
     let group_lane = lane / COLUMNS * COLUMNS;
     var expansion = no_expansion();
@@ -165,18 +177,20 @@ fn expand(cell: Cell, wanted: bool, most: u32, axis: vec2<f32>, column: Column, 
 
 // Values of the lane's bricks: kept, or found out and kept; with the slot, + 2. Those of a cell that is
 // transparent as a whole are not looked for: slot 1.
-fn values_in_cell(cell: Cell, axis: vec2<f32>, column: Column, lane: u32, slot: ptr<function, u32>) -> vec4<u32> {
+fn values_in_cell(
+    cell: Cell, axis: vec2<f32>, column: Column, lane: u32, slot: ptr<function, u32>,
+) -> ColumnValues {
     let number = lane / COLUMNS;
     let leader = lane % COLUMNS == 0u;
     var entry = cell_values[cell.cell];
-    let unknown = cell.exists && entry.x == 0u;
+    let unknown = cell.exists && entry.slot == 0u;
     // Read by all before it is written by one.
     let extremes = find_extremes(cell, unknown, number, lane % COLUMNS);
     if unknown {
-        entry = vec2(1u, extremes);
+        entry = CellEntry(extremes, 1u, 0u);
     }
-    let transparent = !cell.exists || is_transparent(entry.y);
-    let wanted = !transparent && entry.x == 1u;
+    let transparent = !cell.exists || is_transparent(entry.values);
+    let wanted = !transparent && entry.slot == 1u;
     if lane == 0u {
         atomicStore(&most_particles, 0u);
     }
@@ -186,12 +200,12 @@ fn values_in_cell(cell: Cell, axis: vec2<f32>, column: Column, lane: u32, slot: 
         slots[number] = atomicAdd(&slots_taken, 1u);
     }
     let most = workgroupUniformLoad(&most_particles);
-    var values = vec4(EMPTY);
+    var values = ColumnValues(vec4(EMPTY.x), vec4(EMPTY.y));
     for (var once = 0u; once < min(most, 1u); once += 1u) {
-        let found = expand(cell, wanted, most, axis, column, lane);
+        let found = expand(cell, entry.values.x, wanted, most, axis, column, lane);
         if wanted {
             values = found;
-            entry.x = slots[number] + 2u;
+            entry.slot = slots[number] + 2u;
             bricks[slots[number] * COLUMNS + lane % COLUMNS] = values;
         }
         if lane == 0u {
@@ -201,9 +215,9 @@ fn values_in_cell(cell: Cell, axis: vec2<f32>, column: Column, lane: u32, slot: 
     if leader && cell.exists {
         cell_values[cell.cell] = entry;
     }
-    *slot = select(entry.x, 1u, transparent);
+    *slot = select(entry.slot, 1u, transparent);
     if !transparent && !wanted {
-        values = bricks[(entry.x - 2u) * COLUMNS + lane % COLUMNS];
+        values = bricks[(entry.slot - 2u) * COLUMNS + lane % COLUMNS];
     }
     return values;
 }
@@ -222,11 +236,11 @@ fn behind(shown: vec4<f32>, middle: vec4<f32>) -> vec4<f32> {
     return shown + (1.0 - shown.a) * vec4(middle.rgb, middle.a);
 }
 
-fn hull_of_column(values: vec4<u32>, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
-    let a = hull_of(values.x, paths[0] * depth);
-    let b = hull_of(values.y, paths[1] * depth);
-    let c = hull_of(values.z, paths[2] * depth);
-    let d = hull_of(values.w, paths[3] * depth);
+fn hull_of_column(values: ColumnValues, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
+    let a = hull_of(vec2(values.low.x, values.high.x), paths[0] * depth);
+    let b = hull_of(vec2(values.low.y, values.high.y), paths[1] * depth);
+    let c = hull_of(vec2(values.low.z, values.high.z), paths[2] * depth);
+    let d = hull_of(vec2(values.low.w, values.high.w), paths[3] * depth);
     let front = vec4(1.0, a.open, a.open * b.open, a.open * b.open * c.open);
     let shown = behind(behind(behind(a.middle, b.middle), c.middle), d.middle);
     return ColumnHull(shown, vec4(a.charge, b.charge, c.charge, d.charge), front, front.w * d.open);
@@ -383,8 +397,8 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         let cell = next_group(&walk, index, end_layer, number);
         var charge = vec4(0.0);
         var seen = false;
-        let slot = cell_values[cell.cell].x;
-        if cell.exists && slot > 1u && !is_transparent(cell_values[cell.cell].y) {
+        let slot = cell_values[cell.cell].slot;
+        if cell.exists && slot > 1u && !is_transparent(cell_values[cell.cell].values) {
             let place = (slot - 2u) * COLUMNS + column_index;
             charge = charges[place];
             seen = shows[place].a > 0.0;

@@ -57,10 +57,10 @@ impl Adapt {
         };
         Adapt {
             pipelines: Kernel::ALL.iter().map(pipeline).collect(),
-            cell_values: Buffer::storage(gpu, "values of cells", 8),
+            cell_values: Buffer::storage(gpu, "values of cells", 16),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
-            bricks: Buffer::storage(gpu, "values of bricks", 16),
+            bricks: Buffer::storage(gpu, "values of bricks", 32),
             charges: Buffer::storage(gpu, "charges of bricks", 16),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             last_layers: Buffer::storage(gpu, "last layers", 4),

@@ -3,28 +3,24 @@
 // A brick is 2 × 2 rays × 4 slices; a cell has 16 columns of them, 4 deep. Columns follow the same
 // Morton curve as rays, so that the rays of column c are those of lanes 4c to 4c + 3.
 //
-// A brick's values are a word: bounds of the quantity at all its samples, in [0, 1], the lower one in
-// the low 16 bits, the upper one in the next 15; and on top whether every sample meets a particle.
+// A brick's values are two numbers, bounds of the quantity at all its samples, in [0, 1]; COVERED is
+// added to the upper one where every sample meets a particle. Where no sample meets one, they are
+// EMPTY: a state of its own, never inverted bounds.
 
 const COLUMNS: u32 = 16u;
 const BRICK_DEPTH: u32 = 4u;
-// No sample meets a particle: a word of its own, never inverted bounds.
-const EMPTY: u32 = 0x0000ffffu;
-const COVERED: u32 = 0x80000000u;
-const LOW_STEPS: f32 = 65535.0;
-const HIGH_STEPS: f32 = 32767.0;
+const EMPTY: vec2<f32> = vec2(-1.0, -1.0);
+const COVERED: f32 = 2.0;
 
-// `low` and `high` in [0, 1], rounded outward.
-fn pack_values(low: f32, high: f32, covered: bool) -> u32 {
-    let least = u32(floor(low * LOW_STEPS * (1.0 - ROUNDING)));
-    let greatest = min(u32(ceil(high * HIGH_STEPS * (1.0 + ROUNDING))), u32(HIGH_STEPS));
-    return least | greatest << 16u | select(0u, COVERED, covered);
+fn transfer_over(values: vec2<f32>) -> Extremes {
+    // The sum with COVERED may have lost half a unit of its last place.
+    let high = select(values.y, values.y - COVERED + 3e-7, values.y >= COVERED);
+    return transfer_range(min(values.x, high), min(high, 1.0));
 }
 
-fn opacity_and_colours(values: u32) -> Extremes {
-    let low = f32(values & 0xffffu) / LOW_STEPS;
-    let high = f32(values >> 16u & 0x7fffu) / HIGH_STEPS;
-    return transfer_range(min(low, high), high);
+// Whether nothing with values in these bounds is seen at all.
+fn is_transparent(values: vec2<f32>) -> bool {
+    return values.x < 0.0 || transfer_over(values).high.w == 0.0;
 }
 
 struct Hull {
@@ -43,12 +39,12 @@ struct Hull {
 // has the bounds of `at_black` (b = 0) and `at_white` (b = 1); four slices alike compose to the same
 // form with t⁴, so the brick counts as one. The upper bound is convex in b and the lower one concave,
 // and the middle is linear, so the two ends decide.
-fn hull_of(values: u32, paths: vec2<f32>) -> Hull {
-    if values == EMPTY {
+fn hull_of(values: vec2<f32>, paths: vec2<f32>) -> Hull {
+    if values.x < 0.0 {
         return Hull(vec4(0.0), 0.0, 1.0);
     }
-    let transfer = opacity_and_colours(values);
-    let covered = (values & COVERED) != 0u;
+    let transfer = transfer_over(values);
+    let covered = values.y >= COVERED;
     let thick = min(path_opacity(transfer.high.w, paths.y) * (1.0 + ROUNDING), 1.0);
     let thin = select(0.0, path_opacity(transfer.low.w, paths.x) * (1.0 - ROUNDING), covered);
     let opacity = 0.5 * (thick + thin);
@@ -91,10 +87,4 @@ fn column_from_axis(column: u32) -> vec2<f32> {
 // Whether any ray of a column belongs to the picture.
 fn column_in_picture(corner: vec2<f32>, column: u32) -> bool {
     return all(corner + 2.0 * vec2<f32>(place_in_bundle(column)) < vec2<f32>(frame.size));
-}
-
-
-// Whether nothing with values in these bounds is seen at all.
-fn is_transparent(values: u32) -> bool {
-    return values == EMPTY || opacity_and_colours(values).high.w == 0.0;
 }
