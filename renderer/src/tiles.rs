@@ -11,7 +11,7 @@ use crate::renderer::{Geometry, GridSize, Progress, Renderer};
 use crate::scene::Scene;
 use crate::selection;
 use crate::stages::cast::Work;
-use crate::stages::shared::{FrameUniform, TileUniform};
+use crate::stages::shared::{FrameUniform, TileUniform, pitch};
 use crate::stats::Milliseconds;
 
 /// What every tile of a picture shares.
@@ -24,6 +24,15 @@ pub(crate) struct Job<'a> {
     pub resident: bool,
     /// The picture is a single tile, whose grid serves the next picture too.
     pub only_tile: bool,
+}
+
+/// Whether any particle is large enough, at least if it is close to the eye, for its support to cover a
+/// brick of 2 × 2 rays × 4 slices. Where none is, no brick has a narrow bound, and looking for it is in
+/// vain.
+fn bricks_may_be_covered(scene: &Scene) -> bool {
+    /// Distance of a brick's corner samples from its middle, in pixels: √(½² + ½² + 1½²).
+    const REACH: f64 = 1.66;
+    scene.particles.support_radii()[1] > REACH * pitch(scene) * scene.camera.near
 }
 
 /// The grid whose bounds the device knows, with the quantity and the kernel they hold for.
@@ -153,7 +162,8 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         self.cast.reserve(&self.gpu, tile)?;
         // Behind a layer that has been cast before, the books of its rays are gone.
-        let budget = job.scene.sampling.budget().filter(|_| tile.first_layer == 0);
+        let worthwhile = tile.first_layer == 0 && bricks_may_be_covered(job.scene);
+        let budget = job.scene.sampling.budget().filter(|_| worthwhile);
         if budget.is_some() {
             self.prepare_analysis(job, tile, size)?;
         }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, bail};
-use renderer::{Picture, Renderer, Stats};
+use renderer::{Picture, Renderer, Scene, Stats};
 
 use super::film::{Fatal, Film};
 use super::interrupt::Interrupt;
@@ -33,7 +33,7 @@ pub struct RenderArguments {
     out: PathBuf,
     #[command(flatten)]
     view: ViewArguments,
-    /// Write what the pictures cost: sizes, evaluations, milliseconds
+    /// Write what the pictures cost: sizes, evaluations, milliseconds; renders each once more in full, to count
     #[arg(long, value_name = "PATH.json")]
     stats: Option<PathBuf>,
     #[command(flatten)]
@@ -51,10 +51,11 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let sources: Vec<Arc<Timed>> = run.sequence.frame_sources().into_iter().map(Timed::new).collect();
     let streamed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
     let mut film = Film::new(run, view, streamed, interrupt)?;
-    let mut job = Job { output, renderer, sources, stats: Vec::new() };
+    let wanted = arguments.stats.is_some();
+    let mut job = Job { output, renderer, sources, stats: wanted.then(Vec::new) };
     let failed = film.each(|film, index| job.picture(film, index))?;
-    if let Some(path) = &arguments.stats {
-        write_stats(path, &job.stats, film.len() > 1)?;
+    if let (Some(path), Some(stats)) = (&arguments.stats, &job.stats) {
+        write_stats(path, stats, film.len() > 1)?;
     }
     match failed.as_slice() {
         [] => Ok(()),
@@ -66,8 +67,8 @@ struct Job {
     output: Output,
     renderer: Renderer,
     sources: Vec<Arc<Timed>>,
-    /// Of the pictures so far.
-    stats: Vec<Stats>,
+    /// Of the pictures so far, where they are asked for.
+    stats: Option<Vec<Stats>>,
 }
 
 impl Job {
@@ -76,15 +77,34 @@ impl Job {
         let frame = film.frame(index)?;
         let content = film.content(index, &frame)?;
         let scene = content.scene(&content.view).with_context(|| film.name(index).to_owned())?;
+        let adaptive = scene.sampling.tolerance.is_some();
+        let counted = adaptive && self.stats.is_some();
+        let part = if counted { 0.5 } else { 1.0 };
         let Picture { width, height, pixels, mut stats } =
-            film.render(&mut self.renderer, &scene, index, 0.0..1.0)?;
+            film.render(&mut self.renderer, &scene, index, 0.0..part)?;
+        if counted {
+            stats.evaluations.full = self.full_evaluations(film, scene, index, part)?;
+        }
         let path = self.output.path(film.number(index));
         image_file::write(&path, &Pixels { width, height, data: pixels }, film.view().image.background)
             .map_err(|error| Fatal(format!("{error:#}")))?;
         stats.milliseconds.read = self.sources[index].milliseconds();
         stats.milliseconds.total += stats.milliseconds.read;
-        self.stats.push(stats);
+        self.stats.iter_mut().for_each(|all| all.push(stats.clone()));
         Ok(())
+    }
+
+    /// What full sampling computes for `scene`. An adaptive picture cannot know, so it is rendered once
+    /// more; that does not count for its time.
+    fn full_evaluations(
+        &mut self,
+        film: &Film,
+        mut scene: Scene,
+        index: usize,
+        begun: f32,
+    ) -> anyhow::Result<u64> {
+        scene.sampling.tolerance = None;
+        Ok(film.render(&mut self.renderer, &scene, index, begun..1.0)?.stats.evaluations.full)
     }
 }
 
