@@ -3,7 +3,7 @@
 //! It shows the particles of an SPH run themselves: nothing is resampled, and nothing is computed
 //! ahead of time, so that every frame of a run costs the same. The method is that of Hochstetter,
 //! Orthmann and Kolb, *Adaptive Sampling for On-The-Fly Ray Casting of Particle-based Fluids* (HPG
-//! 2016); this crate holds its full-sampling part, on which adaptive sampling builds.
+//! 2016), with bounds of our own: a picture's error against full sampling is below the tolerance.
 //!
 //! # From particles to a picture
 //!
@@ -14,8 +14,10 @@
 //! 1. **project** brings the particles into view space.
 //! 2. **grid** sorts them into cells of 8 × 8 pixels × 16 slices, aligned with the rays: it counts the
 //!    particles of every cell, **scan** turns counts into places, and the particles go to their places.
-//! 3. **cast** takes each bundle of 8 × 8 rays through its cells from front to back. The particles of
-//!    a cell are read once for all its rays; each is evaluated only at samples inside its support.
+//! 3. **adapt** bounds the quantity in the bricks of each cell, and chooses those that may be shown by
+//!    one colour: as many as the tolerance of the view pays for.
+//! 4. **cast** samples what is left. The particles of a cell are read once for all its rays; each is
+//!    evaluated only at samples inside its support.
 //!
 //! `plan` cuts a picture that does not fit the device into tiles; `tiles` takes one tile through the
 //! stages; `renderer` knows which stages a change makes stale, and skips the others.
