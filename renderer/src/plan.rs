@@ -20,6 +20,8 @@ pub(crate) struct TileLimits {
     /// References of cells to particles.
     pub pairs: u64,
     pub cells: u64,
+    /// Cells with particles in them, of a tile that is analysed.
+    pub filled_cells: u64,
     pub bundles: u64,
 }
 
@@ -30,10 +32,15 @@ const PARTICLE_STRIDE: u64 = 16;
 const PARTICLE_BYTES: u64 = 56;
 /// Bytes of a reference, and of a cell's counter.
 const WORD: u64 = 4;
+/// Bytes of a cell in the widest of the arrays over all cells.
+const CELL_STRIDE: u64 = 16;
+/// Bytes of an analysed cell in the widest of its arrays, and in all of them.
+const FILLED_STRIDE: u64 = 512;
+const FILLED_BYTES: u64 = 1056;
 
 impl TileLimits {
     /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:
-    /// a quarter each for particles, references, counters and pixels.
+    /// a quarter each for particles, references, cells and pixels, and another one for an analysis.
     pub(crate) fn new(binding: u64, memory: u64) -> TileLimits {
         let quarter = memory / 4;
         // Rounded down as buffers are rounded up.
@@ -44,7 +51,8 @@ impl TileLimits {
             particles: (binding / PARTICLE_STRIDE).min(quarter / PARTICLE_BYTES).max(1),
             pairs: words,
             // The upper levels of the prefix sum need a little more than one in two thousand.
-            cells: (words - words / 1024).max(1),
+            cells: (words - words / 1024).min(share / CELL_STRIDE).max(1),
+            filled_cells: (binding / FILLED_STRIDE).min(quarter / FILLED_BYTES).max(1),
             bundles: (share / BUNDLE_BYTES).max(1),
         }
     }
@@ -107,8 +115,13 @@ pub(crate) fn tiles(bundles: [u32; 2], slices: u64, limits: TileLimits) -> Vec<T
 mod tests {
     use super::*;
 
-    const PLENTY: TileLimits =
-        TileLimits { particles: 1 << 40, pairs: 1 << 40, cells: 1 << 40, bundles: 1 << 40 };
+    const PLENTY: TileLimits = TileLimits {
+        particles: 1 << 40,
+        pairs: 1 << 40,
+        cells: 1 << 40,
+        filled_cells: 1 << 40,
+        bundles: 1 << 40,
+    };
 
     #[test]
     fn a_picture_that_fits_is_one_tile() {

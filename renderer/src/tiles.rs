@@ -26,6 +26,13 @@ pub(crate) struct Job<'a> {
     pub only_tile: bool,
 }
 
+/// What may be charged to the rays of `tile`; `None` where it is sampled in full: also behind layers
+/// that have been cast before, since the books of its rays are gone.
+fn budget_of(job: &Job, tile: &Tile) -> Option<f32> {
+    let worthwhile = tile.first_layer == 0 && bricks_may_be_covered(job.scene);
+    job.scene.sampling.budget().filter(|_| worthwhile)
+}
+
 /// Whether any particle is large enough, at least if it is close to the eye, for its support to cover a
 /// brick of 2 × 2 rays × 4 slices. Where none is, no brick has a narrow bound, and looking for it is in
 /// vain.
@@ -70,6 +77,10 @@ impl Renderer {
             },
         };
         self.sorted = job.only_tile.then(|| (job.geometry.clone(), size));
+        let limit = job.limits.filled_cells;
+        if budget_of(job, tile).is_some() && size.cells > limit {
+            return Ok(Err(TooLarge { what: "cells to analyse", needed: size.cells, limit }));
+        }
         Ok(Ok(size))
     }
 
@@ -161,9 +172,7 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         self.cast.reserve(&self.gpu, tile)?;
-        // Behind a layer that has been cast before, the books of its rays are gone.
-        let worthwhile = tile.first_layer == 0 && bricks_may_be_covered(job.scene);
-        let budget = job.scene.sampling.budget().filter(|_| worthwhile);
+        let budget = budget_of(job, tile);
         if budget.is_some() {
             self.prepare_analysis(job, tile, size)?;
         }
@@ -171,13 +180,19 @@ impl Renderer {
         self.bundles.clear_counters(&mut encoder);
         self.gpu.queue.submit([encoder.finish()]);
         let bundles = tile.bundles();
+        // Samples of a cell take twice the place of its bounds.
+        let most = match budget {
+            Some(_) => (job.limits.filled_cells / 2 / u64::from(tile.layers)).max(1),
+            None => bundles,
+        };
         let mut first = 0;
         while first < bundles {
             if progress(first as f32 / bundles as f32).is_break() {
                 return Err(RenderError::Cancelled);
             }
             let begin = Instant::now();
-            let end = bundles.min(first + self.pace[usize::from(budget.is_some())].bundles());
+            let pace = self.pace[usize::from(budget.is_some())].bundles();
+            let end = bundles.min(first + pace.min(most));
             self.bundles.write_chunk(&self.gpu, first..end, bundles, budget.unwrap_or(0.0))?;
             let times = &mut picture.stats.milliseconds;
             match budget {
