@@ -215,7 +215,7 @@ fn values_in_cell(
     if leader && cell.exists {
         cell_values[cell.cell] = entry;
     }
-    *slot = select(entry.slot, 1u, transparent);
+    *slot = entry.slot;
     if !transparent && !wanted {
         values = bricks[(entry.slot - 2u) * COLUMNS + lane % COLUMNS];
     }
@@ -356,7 +356,7 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         let charge = before * hull.front * hull.charge * (1.0 + ROUNDING);
         // The column ends before a cell; so the charge is not more than the rest's.
         let ended = before <= OCCLUDED * chunk.budget;
-        if slot > 1u {
+        if cell.exists && slot > 1u {
             let place = (slot - 2u) * COLUMNS + column_index;
             charges[place] = select(charge, vec4(-1.0), ended);
             shows[place] = select(hull.shown, vec4(0.0), ended);
@@ -398,7 +398,7 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         var charge = vec4(0.0);
         var seen = false;
         let slot = cell_values[cell.cell].slot;
-        if cell.exists && slot > 1u && !is_transparent(cell_values[cell.cell].values) {
+        if cell.exists && slot > 1u {
             let place = (slot - 2u) * COLUMNS + column_index;
             charge = charges[place];
             seen = shows[place].a > 0.0;
