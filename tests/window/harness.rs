@@ -160,6 +160,11 @@ impl Window {
         std::thread::sleep(Duration::from_millis(60));
     }
 
+    pub fn click(&self, name: &str, [across, down]: [f64; 2]) {
+        self.point(&self.place(name, across, down));
+        self.tool(&["click", "1"]);
+    }
+
     pub fn drag(&self, name: &str, from: [f64; 2], to: [f64; 2]) {
         self.point(&self.place(name, from[0], from[1]));
         self.tool(&["mousedown", "1"]);
