@@ -95,6 +95,10 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
             };
             parts.push(format!("1/{} resolution{refining}", picture.divisor));
         }
+        (None, Some(picture)) if picture.sampling != desk.session.view.sampling => {
+            let share = desk.render.share().unwrap_or(0.0);
+            parts.push(format!("Sampling anew, {:.0} %", 100.0 * share));
+        }
         (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
         _ => {}
     }
@@ -153,12 +157,12 @@ fn card<T: Send + 'static>(ui: &mut Ui, outer: Rect, row: usize, title: &str, ta
     ui.painter().rect(place, 6, theme::PANEL, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Inside);
     ui.scope_builder(egui::UiBuilder::new().max_rect(place.shrink(8.0)), |ui| {
         ui.add(egui::Label::new(RichText::new(title).small()).truncate());
-        ui.horizontal(|ui| {
-            let bar = egui::ProgressBar::new(task.share()).desired_height(8.0);
-            ui.add(bar.desired_width(width - 96.0).fill(theme::ACCENT));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
             if ui.small_button("Cancel").clicked() {
                 task.cancel();
             }
+            let bar = egui::ProgressBar::new(task.share()).desired_height(8.0);
+            ui.centered_and_justified(|ui| ui.add(bar.fill(theme::ACCENT)));
         });
     });
 }

@@ -6,7 +6,7 @@ use renderer::CellClasses;
 use crate::viewer::session::Session;
 use crate::viewer::{theme, widgets};
 
-use super::sampling::rounded;
+use super::sampling::plain;
 
 /// Classes of cells, from the dearest to the cheapest: name, colour, meaning, and how many there are.
 type Class = (&'static str, Color32, &'static str, fn(&CellClasses) -> u64);
@@ -31,10 +31,7 @@ pub fn show(ui: &mut Ui, session: &Session) {
     let stats = &picture.stats;
     ui.scope(|ui| {
         let predicted = match picture.sampling.tolerance {
-            Some(tolerance) => {
-                let error = rounded(stats.predicted_error, 3);
-                format!("{} of {}", widgets::short(error), widgets::short(tolerance))
-            }
+            Some(tolerance) => format!("{} of {tolerance}", plain(stats.predicted_error)),
             None => "0, sampled in full".into(),
         };
         widgets::fact(ui, "Predicted error", predicted)

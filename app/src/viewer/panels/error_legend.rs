@@ -9,7 +9,7 @@ use super::legend;
 
 /// Height of the colour of errors above the tolerance, and its distance from the others.
 const ABOVE: f32 = 12.0;
-const GAP: f32 = 6.0;
+const GAP: f32 = 12.0;
 
 pub fn show(ui: &Ui, measured: &Measured, picture: Rect) {
     let Some(bar) = legend::place(picture) else { return };

@@ -8,7 +8,7 @@ use crate::viewer::shortcuts::Action;
 use crate::viewer::theme;
 use crate::viewer::widgets::{self, Areas};
 
-use super::sampling::{in_steps, rounded};
+use super::sampling::{in_steps, plain};
 
 pub fn show(
     ui: &mut Ui,
@@ -50,25 +50,23 @@ fn button(ui: &mut Ui, session: &Session, running: bool, actions: &mut Vec<Actio
 fn facts(ui: &mut Ui, measured: &Measured) {
     let Measured { error, speed_up, tolerance, .. } = measured;
     ui.scope(|ui| {
-        widgets::fact(ui, "Measured, largest", with_steps(error.max)).on_hover_text(format!(
-            "At pixel {}, {}; the tolerance is {}",
-            error.place[0],
-            error.place[1],
-            widgets::short(*tolerance)
+        widgets::fact(ui, "Measured error", with_steps(error.max)).on_hover_text(format!(
+            "The largest: at pixel {}, {}; the tolerance is {tolerance}",
+            error.place[0], error.place[1],
         ));
-        widgets::fact(ui, "Measured, mean", with_steps(error.mean))
+        widgets::fact(ui, "Mean error", with_steps(error.mean))
             .on_hover_text("Over all channels of all pixels");
         widgets::fact(ui, "Pixels above", widgets::percent(error.above))
             .on_hover_text("Pixels with an error above the tolerance");
         let [ours, full] = speed_up.milliseconds;
-        widgets::fact(ui, "Faster", format!("{:.2} times", speed_up.time)).on_hover_text(format!(
+        widgets::fact(ui, "Speed-up in time", format!("{:.2} ×", speed_up.time)).on_hover_text(format!(
             "{full:.0} ms at full sampling, {ours:.0} ms as in view: grid, analysis and ray cast, in one go \
              on one device"
         ));
-        widgets::fact(ui, "Fewer evaluations", format!("{:.2} times", speed_up.evaluations));
+        widgets::fact(ui, "Speed-up in evaluations", format!("{:.2} ×", speed_up.evaluations));
     });
 }
 
 fn with_steps(error: f64) -> String {
-    format!("{} = {}", widgets::short(rounded(error, 3)), in_steps(error))
+    format!("{} = {}", plain(error), in_steps(error))
 }

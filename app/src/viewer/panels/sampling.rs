@@ -82,11 +82,16 @@ fn super_pixels(ui: &mut Ui, on: &mut bool) {
 
 /// An error in steps of a channel of 8 bits.
 pub fn in_steps(error: f64) -> String {
-    format!("{} of 255", widgets::short(rounded(STEPS * error, 3)))
+    format!("{} of 255", plain(STEPS * error))
+}
+
+/// An error to three significant digits.
+pub fn plain(error: f64) -> String {
+    rounded(error, 3).to_string()
 }
 
 /// Rounded to significant digits.
-pub fn rounded(value: f64, digits: usize) -> f64 {
+fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
@@ -100,6 +105,7 @@ mod tests {
             assert_eq!(in_steps(tolerance), format!("{label} of 255"));
         }
         assert_eq!(in_steps(0.0), "0 of 255");
+        assert_eq!(plain(0.000_148_04), "0.000148");
         assert_eq!(in_steps(f64::INFINITY), "inf of 255");
     }
 
