@@ -141,6 +141,13 @@ impl Window {
         while !self.wait_for("picture").ends_with("full") {}
     }
 
+    /// Waits until it has nothing to say for a while.
+    pub fn rest(&mut self) {
+        while let Ok(line) = self.lines.recv_timeout(Duration::from_secs(1)) {
+            self.said.push(line);
+        }
+    }
+
     /// The last known place of an area: x, y, width, height.
     fn area(&self, name: &str) -> [i32; 4] {
         let beginning = format!("event: area {name} ");

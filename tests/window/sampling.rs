@@ -10,15 +10,15 @@ fn a_tolerance_is_set_and_its_error_measured() {
     }
     let folder = tempfile::tempdir().unwrap();
     let mut window = Window::open(folder.path(), &["demo", "--size", "120x90"]);
+    window.wait_for_full_picture();
     // The sections above it are folded away, so that all of it is in view.
     for section in ["Transfer function", "Quantity"] {
         window.click(section, [0.5, 0.5]);
-        window.wait_for("area");
     }
-    window.wait_for_full_picture();
+    window.rest();
 
-    // Logarithmic, from 10⁻⁴ to 10⁻¹: two thirds of the way is 10⁻².
-    window.click("tolerance", [2.0 / 3.0, 0.5]);
+    // Logarithmic, from 10⁻⁴ to 10⁻¹: two thirds of the way is about 10⁻².
+    window.drag("tolerance", [0.53, 0.5], [0.65, 0.5]);
     window.wait_for_full_picture();
     let (_, view) = window.save(folder.path());
     let tolerance = view.sampling.tolerance.unwrap();
