@@ -9,6 +9,8 @@ mod dialogs;
 mod files;
 #[path = "window/harness.rs"]
 mod harness;
+#[path = "window/sampling.rs"]
+mod sampling;
 #[path = "window/system.rs"]
 mod system;
 

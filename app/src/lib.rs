@@ -1,6 +1,7 @@
 //! The sphcast application: frames from files, the command line, and the window.
 
 pub mod cli;
+mod difference;
 pub mod frames;
 pub mod image_file;
 mod io_error;

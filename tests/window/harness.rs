@@ -141,6 +141,13 @@ impl Window {
         while !self.wait_for("picture").ends_with("full") {}
     }
 
+    /// Waits until it has nothing to say for a while.
+    pub fn rest(&mut self) {
+        while let Ok(line) = self.lines.recv_timeout(Duration::from_secs(1)) {
+            self.said.push(line);
+        }
+    }
+
     /// The last known place of an area: x, y, width, height.
     fn area(&self, name: &str) -> [i32; 4] {
         let beginning = format!("event: area {name} ");
@@ -158,6 +165,11 @@ impl Window {
     pub fn point(&self, [x, y]: &[String; 2]) {
         self.tool(&["mousemove", "--sync", x, y]);
         std::thread::sleep(Duration::from_millis(60));
+    }
+
+    pub fn click(&self, name: &str, [across, down]: [f64; 2]) {
+        self.point(&self.place(name, across, down));
+        self.tool(&["click", "1"]);
     }
 
     pub fn drag(&self, name: &str, from: [f64; 2], to: [f64; 2]) {

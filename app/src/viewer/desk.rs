@@ -1,7 +1,7 @@
 //! Session, threads, dialogs and panels at work together: one call a frame.
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
 use egui::Ui;
@@ -12,14 +12,18 @@ use crate::frames::Sequence;
 use crate::{image_file, view_file};
 
 use super::analysis::Analysis;
-use super::dialogs::{Dialogs, Outcome, Purpose};
-use super::export::{self, Export};
+use super::dialogs::{self, Dialogs, Purpose};
+use super::error_map;
+use super::export::Export;
+use super::measurement::{Measurement, State};
+use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
 use super::picture_view::PictureView;
 use super::render_thread::{RenderThread, Report};
 use super::run::{self, Run};
 use super::session::Session;
 use super::shortcuts::Action;
+use super::task::Outcome;
 use super::widgets::Areas;
 use super::{Options, Wake};
 
@@ -42,7 +46,10 @@ pub struct Desk {
     pub session: Session,
     pub(super) picture: PictureView,
     pub(super) editor: TransferEditor,
+    pub(super) sampling: SamplingPanel,
     pub(super) exports: Vec<Export>,
+    /// Of the picture in view.
+    pub(super) measurement: Option<Measurement>,
     pub(super) legend: bool,
     pub(super) help: bool,
     pub(super) side_panel: bool,
@@ -69,7 +76,9 @@ impl Desk {
             session,
             picture: PictureView::new(),
             editor: TransferEditor::default(),
+            sampling: SamplingPanel::new(),
             exports: Vec::new(),
+            measurement: None,
             legend: true,
             help: false,
             side_panel: true,
@@ -105,13 +114,15 @@ impl Desk {
         for action in actions {
             self.act(action, window);
         }
-        if self.session.view != before {
+        // A hand on the mouse will change it again; after a click, the picture may take its time.
+        if self.session.view != before && ui.input(|input| input.pointer.any_down()) {
             self.session.touch(now);
         }
         self.session.poll(now);
         if let Some(job) = self.session.job(now, room) {
             self.render.submit(job);
         }
+        self.follow_measurement(ui.ctx());
         self.count();
         // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
         self.due = self.session.due(now);
@@ -155,6 +166,7 @@ impl Desk {
                 self.dialogs.ask(Purpose::SavePicture, &name, window);
             }
             Action::QuickSave => self.quick_save(),
+            Action::MeasureError => self.measure_error(),
             Action::PlayPause => session.toggle_playing(),
             Action::StepForward | Action::StepBack => {
                 session.playback.pause();
@@ -219,25 +231,25 @@ impl Desk {
 
     fn take_outcomes(&mut self) {
         match self.dialogs.poll() {
-            Some(Outcome::Chosen(purpose, paths)) => self.chosen(purpose, paths),
-            Some(Outcome::Unavailable) => self.session.complain(
+            Some(dialogs::Outcome::Chosen(purpose, paths)) => self.chosen(purpose, paths),
+            Some(dialogs::Outcome::Unavailable) => self.session.complain(
                 "No file dialog could be opened: install xdg-desktop-portal or zenity, drop files on the \
                  window, name them on the command line, or save with Ctrl+Shift+E",
             ),
-            Some(Outcome::Dismissed) => self.session.log("dialog closed"),
+            Some(dialogs::Outcome::Dismissed) => self.session.log("dialog closed"),
             None => {}
         }
         let session = &mut self.session;
         self.exports.retain(|export| {
-            let Some(outcome) = export.poll() else { return true };
+            let Some(outcome) = export.task.poll() else { return true };
             let path = export.path.display();
             match outcome {
-                export::Outcome::Saved => {
+                Outcome::Done(()) => {
                     session.messages.note(format!("Picture saved as {path}"));
                     session.log(format!("saved {path}"));
                 }
-                export::Outcome::Cancelled => session.messages.note(format!("{path} was not saved")),
-                export::Outcome::Failed(text) => session.complain(text),
+                Outcome::Cancelled => session.messages.note(format!("{path} was not saved")),
+                Outcome::Failed(text) => session.complain(text),
             }
             false
         });
@@ -302,6 +314,40 @@ impl Desk {
         let view = self.session.complete_view();
         let wake = Wake::clone(&self.wake);
         self.exports.push(Export::start(frame, view, path, self.gpu.clone(), wake));
+    }
+
+    /// Starts to measure the error of the picture in view.
+    fn measure_error(&mut self) {
+        let session = &self.session;
+        if let (Some((_, frame)), Some(tolerance)) = (session.frame(), session.view.sampling.tolerance) {
+            let (frame, view) = (Arc::clone(frame), session.drawn_view());
+            let wake = Wake::clone(&self.wake);
+            self.measurement = Some(Measurement::start(frame, &view, tolerance, self.gpu.clone(), wake));
+        }
+    }
+
+    /// Takes in what was measured, and forgets it with the picture that it is about.
+    fn follow_measurement(&mut self, context: &egui::Context) {
+        let view = self.session.drawn_view();
+        let session = &mut self.session;
+        let Some(measurement) = &mut self.measurement else { return };
+        let in_view = session.frame().is_some_and(|(_, frame)| measurement.is_of(frame, &view));
+        let outcome = if in_view { measurement.poll() } else { Some(Outcome::Cancelled) };
+        match outcome {
+            None => return,
+            Some(Outcome::Done(())) => {
+                if let State::Done(measured) = &measurement.state {
+                    session
+                        .log(format!("measured max={:e} above={}", measured.error.max, measured.error.above));
+                    self.picture.set_errors(context, Some(error_map::image(measured)));
+                }
+                return;
+            }
+            Some(Outcome::Failed(text)) => session.complain(text),
+            Some(Outcome::Cancelled) => session.log("no measurement"),
+        }
+        self.measurement = None;
+        self.picture.set_errors(context, None);
     }
 
     /// Saves picture and view in the working directory, under names that are free.

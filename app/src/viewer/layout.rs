@@ -3,11 +3,14 @@
 use egui::{Align2, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, Stroke, Ui, vec2};
 
 use super::desk::Desk;
+use super::measurement::{Measurement, State};
 use super::panels::{
-    camera, help, image, legend, messages, particles, performance, quantity, timeline, toolbar,
+    camera, cell_classes, error_legend, help, image, legend, measured_error, messages, particles,
+    performance, quantity, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
+use super::task::Task;
 use super::{theme, widgets};
 
 /// Shows the window's contents. Returns the room for the picture, in physical pixels.
@@ -46,9 +49,14 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
 }
 
 fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    let Desk { session, editor, legend, .. } = desk;
+    let Desk { session, editor, sampling, legend, picture, measurement, .. } = desk;
     widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
     widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
+    widgets::section(ui, "Sampling", true, |ui| {
+        sampling.show(ui, session);
+        cell_classes::show(ui, session);
+        measured_error::show(ui, session, measurement.as_ref(), &mut picture.shows_errors, actions);
+    });
     widgets::section(ui, "Picture", false, |ui| image::show(ui, session, legend, actions));
     widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
     widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
@@ -56,11 +64,15 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
 }
 
 fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
-    if desk.legend && desk.session.picture.is_some() {
-        legend::show(ui, &desk.session, rect);
+    match &desk.measurement {
+        Some(Measurement { state: State::Done(measured), .. }) if desk.picture.shows_errors => {
+            error_legend::show(ui, measured, rect);
+        }
+        _ if desk.legend && desk.session.picture.is_some() => legend::show(ui, &desk.session, rect),
+        _ => {}
     }
     status(ui, desk, outer);
-    exports(ui, desk, outer);
+    tasks(ui, desk, outer);
     messages::show(ui, &mut desk.session, outer);
 }
 
@@ -82,6 +94,10 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
                 None => String::new(),
             };
             parts.push(format!("1/{} resolution{refining}", picture.divisor));
+        }
+        (None, Some(picture)) if picture.sampling != desk.session.view.sampling => {
+            let share = desk.render.share().unwrap_or(0.0);
+            parts.push(format!("Sampling anew, {:.0} %", 100.0 * share));
         }
         (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
         _ => {}
@@ -119,26 +135,36 @@ fn nothing(desk: &Desk) -> Option<String> {
     }
 }
 
-/// Pictures on their way to files.
-fn exports(ui: &mut Ui, desk: &Desk, outer: Rect) {
-    let width = 300.0_f32.min(outer.width() - 24.0);
-    for (index, export) in desk.exports.iter().enumerate() {
-        let top = outer.top() + 12.0 + 58.0 * index as f32;
-        let corner = egui::pos2(outer.right() - width - 12.0, top);
-        let place = Rect::from_min_size(corner, vec2(width, 50.0));
-        ui.painter().rect(place, 6, theme::PANEL, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Inside);
-        ui.scope_builder(egui::UiBuilder::new().max_rect(place.shrink(8.0)), |ui| {
-            let name = export.path.file_name().unwrap_or_default().to_string_lossy();
-            ui.add(egui::Label::new(RichText::new(format!("Saving {name}")).small()).truncate());
-            ui.horizontal(|ui| {
-                let bar = egui::ProgressBar::new(export.share()).desired_height(8.0);
-                ui.add(bar.desired_width(width - 96.0).fill(theme::ACCENT));
-                if ui.small_button("Cancel").clicked() {
-                    export.cancel();
-                }
-            });
-        });
+/// What is drawn in the background: pictures on their way to files, and a measurement.
+fn tasks(ui: &mut Ui, desk: &Desk, outer: Rect) {
+    let mut row = 0;
+    for export in &desk.exports {
+        let name = export.path.file_name().unwrap_or_default().to_string_lossy();
+        card(ui, outer, row, &format!("Saving {name}"), &export.task);
+        row += 1;
     }
+    if let Some(Measurement { state: State::Running(task), .. }) = &desk.measurement {
+        card(ui, outer, row, "Measuring the error", task);
+    }
+}
+
+/// How far a task is, and a button to cancel it.
+fn card<T: Send + 'static>(ui: &mut Ui, outer: Rect, row: usize, title: &str, task: &Task<T>) {
+    let width = 300.0_f32.min(outer.width() - 24.0);
+    let top = outer.top() + 12.0 + 58.0 * row as f32;
+    let corner = egui::pos2(outer.right() - width - 12.0, top);
+    let place = Rect::from_min_size(corner, vec2(width, 50.0));
+    ui.painter().rect(place, 6, theme::PANEL, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Inside);
+    ui.scope_builder(egui::UiBuilder::new().max_rect(place.shrink(8.0)), |ui| {
+        ui.add(egui::Label::new(RichText::new(title).small()).truncate());
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
+            if ui.small_button("Cancel").clicked() {
+                task.cancel();
+            }
+            let bar = egui::ProgressBar::new(task.share()).desired_height(8.0);
+            ui.centered_and_justified(|ui| ui.add(bar.fill(theme::ACCENT)));
+        });
+    });
 }
 
 /// Says what happens to files that hover over the window.

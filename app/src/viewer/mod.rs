@@ -2,16 +2,18 @@
 //!
 //! - [`session`] is the state, without window or egui: run, playhead, view, camera, messages.
 //! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`export`] does
-//!   so for saved ones.
+//!   so for saved ones, and [`measurement`] to find out how far a picture is from full sampling.
 //! - [`desk`] ties the two together with dialogs and [`panels`]; [`window`] is winit and egui.
 
 mod analysis;
 mod brush;
 mod desk;
 mod dialogs;
+mod error_map;
 mod export;
 mod icons;
 mod layout;
+mod measurement;
 mod messages;
 mod orbit_camera;
 mod pace;
@@ -23,6 +25,7 @@ mod render_thread;
 mod run;
 mod session;
 mod shortcuts;
+mod task;
 mod theme;
 mod tone;
 mod widgets;

@@ -15,6 +15,10 @@ use super::widgets::Areas;
 /// The picture as a texture, and the mode in which the mouse moves the camera.
 pub struct PictureView {
     texture: Option<TextureHandle>,
+    /// The errors of this picture, where they were measured.
+    errors: Option<TextureHandle>,
+    /// Whether the errors are shown in its place.
+    pub shows_errors: bool,
     pub flying: bool,
     /// Speed of flying, in shares of the scene's radius a second.
     speed: f64,
@@ -26,7 +30,7 @@ const FLY_SPEEDS: [f64; 2] = [0.01, 10.0];
 
 impl PictureView {
     pub fn new() -> PictureView {
-        PictureView { texture: None, flying: false, speed: 0.5 }
+        PictureView { texture: None, errors: None, shows_errors: false, flying: false, speed: 0.5 }
     }
 
     /// Takes a new picture: nearest pixels at full resolution, which is the screen's own; smooth below.
@@ -38,6 +42,12 @@ impl PictureView {
             Some(texture) => texture.set(image, options),
             None => self.texture = Some(context.load_texture("picture", image, options)),
         }
+    }
+
+    /// Takes the errors of the picture, or forgets them when it is no longer in view.
+    pub fn set_errors(&mut self, context: &egui::Context, image: Option<ColorImage>) {
+        self.errors = image.map(|image| context.load_texture("errors", image, TextureOptions::NEAREST));
+        self.shows_errors &= self.errors.is_some();
     }
 
     /// Forgets the picture, when another run is opened.
@@ -57,7 +67,7 @@ impl PictureView {
         ui.painter().rect_filled(outer, 0, theme::GROUND);
         let rect = place(outer, session.fitted(), ui.pixels_per_point());
         Areas::mark(ui, "picture", rect);
-        if let Some(texture) = &self.texture {
+        if let Some(texture) = self.errors.as_ref().filter(|_| self.shows_errors).or(self.texture.as_ref()) {
             let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
         }

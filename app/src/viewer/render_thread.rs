@@ -12,7 +12,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, mpsc};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use renderer::{Gpu, GpuOptions, Picture, RenderError, Renderer, Scene, Stats, View};
+use renderer::{Gpu, GpuOptions, Picture, RenderError, Renderer, SamplingView, Scene, Stats, View};
 
 use crate::frames::Frame;
 
@@ -49,6 +49,7 @@ pub struct Shown {
     /// Size at full resolution, and what it was divided by.
     pub full: [u32; 2],
     pub divisor: u32,
+    pub sampling: SamplingView,
     pub stats: Stats,
     pub facts: Facts,
 }
@@ -235,8 +236,7 @@ impl Worker {
     /// Draws what the job asks for, pass by pass.
     fn serve(&mut self, job: &Job) -> Result<(), Stop> {
         let key = without_background(&job.view);
-        let known = self.last.take_if(|last| !Arc::ptr_eq(&last.frame, &job.frame) || last.view != key);
-        drop(known);
+        let stale = self.last.take_if(|last| !Arc::ptr_eq(&last.frame, &job.frame) || last.view != key);
         let mut divisor = match &self.last {
             Some(last) if last.divisor == 1 || job.moving => {
                 self.show(job);
@@ -249,7 +249,11 @@ impl Worker {
                 Pace::finer(divisor)
             }
             None if job.moving => self.pace.moving(),
-            None => self.pace.resting(),
+            None => match stale.filter(|last| differs_in_sampling_alone(last, job)) {
+                // In the size that it had, its grid and its bounds serve again.
+                Some(last) => last.divisor,
+                None => self.pace.resting(),
+            },
         };
         let mut first = self.last.is_none();
         loop {
@@ -291,6 +295,7 @@ impl Worker {
             pixels: tone::to_screen(&picture.pixels, job.view.image.background),
             full: [view.image.width, view.image.height],
             divisor: *divisor,
+            sampling: view.sampling,
             stats: picture.stats.clone(),
             facts: facts.clone(),
         };
@@ -365,10 +370,17 @@ impl Worker {
 }
 
 /// The part of a view that the renderer sees.
-fn without_background(view: &View) -> View {
+pub fn without_background(view: &View) -> View {
     let mut view = view.clone();
     view.image.background = None;
     view
+}
+
+/// Whether a picture like `last`, sampled in another way, is what `job` asks for.
+fn differs_in_sampling_alone(last: &Last, job: &Job) -> bool {
+    let mut view = last.view.clone();
+    view.sampling = SamplingView { rate: view.sampling.rate, ..job.view.sampling };
+    Arc::ptr_eq(&last.frame, &job.frame) && view == without_background(&job.view)
 }
 
 #[cfg(test)]

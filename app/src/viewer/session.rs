@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use renderer::{Bounds, Rejected, Stats, View};
+use renderer::{Bounds, Rejected, SamplingView, Stats, View};
 
 use crate::frames::{Frame, FrameState};
 
@@ -35,6 +35,7 @@ pub struct PictureFacts {
     pub index: usize,
     pub divisor: u32,
     pub full: [u32; 2],
+    pub sampling: SamplingView,
     pub stats: Stats,
     pub facts: Facts,
 }
@@ -304,6 +305,7 @@ impl Session {
             index: shown.index,
             divisor: shown.divisor,
             full: shown.full,
+            sampling: shown.sampling,
             stats: shown.stats.clone(),
             facts: facts.clone(),
         });

@@ -56,6 +56,7 @@ fn picture(session: &Session) -> Report {
         pixels: vec![[128, 128, 128, 255]],
         full: ROOM,
         divisor: 4,
+        sampling: session.view.sampling,
         stats: Stats::default(),
         facts,
     }))
@@ -139,6 +140,7 @@ fn a_saved_view_brings_the_same_picture_back() {
     session.view.transfer.points.push(ControlPoint { u: 1.0, rgb: [1.0, 0.0, 0.0], opacity: 0.7 });
     session.view.quantity.range = Some([0.25, 0.75]);
     session.range_source = RangeSource::Fixed;
+    (session.view.sampling.tolerance, session.view.sampling.super_pixels) = (Some(0.01), false);
     let saved = View::from_json(&session.complete_view().to_json()).unwrap();
     assert!(saved.validate().is_ok());
 
@@ -154,6 +156,7 @@ fn a_saved_view_brings_the_same_picture_back() {
     session.adopt(saved.clone());
     assert!(near(session.complete_view().camera.unwrap(), saved.camera.unwrap()));
     assert_eq!(session.complete_view().transfer, saved.transfer);
+    assert_eq!(again.complete_view().sampling, saved.sampling);
 }
 
 #[test]

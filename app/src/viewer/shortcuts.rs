@@ -14,6 +14,7 @@ pub enum Action {
     SaveView,
     SavePicture,
     QuickSave,
+    MeasureError,
     PlayPause,
     StepForward,
     StepBack,

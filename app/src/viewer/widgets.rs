@@ -26,11 +26,12 @@ impl Areas {
 }
 
 /// A titled part of the side panel that folds away.
-pub fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+pub fn section(ui: &mut Ui, title: &'static str, open: bool, contents: impl FnOnce(&mut Ui)) {
     let id = ui.make_persistent_id(("section", title));
     let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), Sense::click());
     let response = response.accessible_name(title);
+    Areas::mark(ui, title, rect);
     if response.clicked() {
         state.toggle(ui);
     }
@@ -76,7 +77,7 @@ pub fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> 
 }
 
 /// A label, and a value that stands at the right edge.
-pub fn fact(ui: &mut Ui, label: &str, value: impl Into<String>) {
+pub fn fact(ui: &mut Ui, label: &str, value: impl Into<String>) -> Response {
     ui.spacing_mut().item_spacing.y = 2.0;
     ui.spacing_mut().interact_size.y = 20.0;
     ui.horizontal(|ui| {
@@ -85,7 +86,8 @@ pub fn fact(ui: &mut Ui, label: &str, value: impl Into<String>) {
             let text = RichText::new(value.into()).font(theme::number_font());
             ui.add(egui::Label::new(text).truncate());
         });
-    });
+    })
+    .response
 }
 
 /// Choices side by side, of which one holds. Returns whether another one was chosen.
@@ -168,6 +170,17 @@ pub fn large(value: u64) -> String {
     }
 }
 
+/// A share in percent. One that is not quite nothing, or not quite everything, is shown to be so.
+pub fn percent(share: f64) -> String {
+    match 100.0 * share {
+        0.0 => "0 %".into(),
+        p if p < 0.1 => "< 0.1 %".into(),
+        p if (99.9..100.0).contains(&p) => "> 99.9 %".into(),
+        p if p >= 100.0 => "100 %".into(),
+        p => format!("{p:.1} %"),
+    }
+}
+
 /// Bytes in the unit that suits them.
 pub fn bytes(value: u64) -> String {
     match value as f64 {
@@ -200,5 +213,11 @@ mod tests {
         assert_eq!(count(1234), "1\u{202f}234");
         assert_eq!(large(1_400_000_000), "1.40 G");
         assert_eq!(bytes(3 << 20), "3.0 MiB");
+    }
+
+    #[test]
+    fn shares_never_pass_for_none_or_all() {
+        assert_eq!([0.0, 1.0, 0.25].map(percent), ["0 %", "100 %", "25.0 %"]);
+        assert_eq!([1e-9, 0.999_999].map(percent), ["< 0.1 %", "> 99.9 %"]);
     }
 }

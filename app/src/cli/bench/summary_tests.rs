@@ -1,8 +1,8 @@
 use renderer::Stats;
 
 use super::*;
-use crate::cli::compare::Difference;
 use crate::cli::view::Tolerance;
+use crate::difference::Difference;
 
 const TOLERANCE: f64 = 0.004;
 

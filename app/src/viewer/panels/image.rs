@@ -81,6 +81,8 @@ fn size(ui: &mut Ui, session: &mut Session) {
 fn background(ui: &mut Ui, session: &mut Session) {
     let background = &mut session.view.image.background;
     widgets::row(ui, "Background", |ui| {
+        // Four things in one row: the colour is no wider than it must be.
+        ui.spacing_mut().interact_size.x = 36.0;
         let mut solid = background.is_some();
         if ui
             .checkbox(&mut solid, "")

@@ -1,14 +1,18 @@
 //! One panel a file. Panels edit the session's view; what needs the window they ask for by an action.
 
 pub mod camera;
+pub mod cell_classes;
+pub mod error_legend;
 pub mod help;
 pub mod image;
 pub mod legend;
+pub mod measured_error;
 pub mod messages;
 pub mod particles;
 pub mod performance;
 pub mod presets;
 pub mod quantity;
+pub mod sampling;
 pub mod timeline;
 pub mod toolbar;
 pub mod transfer_canvas;

@@ -32,7 +32,6 @@ pub fn show(ui: &mut Ui, session: &Session) {
     widgets::fact(ui, "Slices", widgets::count(stats.slices));
     widgets::fact(ui, "Cells", widgets::count(stats.cells));
     widgets::fact(ui, "Pairs", widgets::count(stats.pairs));
-    widgets::fact(ui, "Evaluations", widgets::large(stats.evaluations.done));
     widgets::fact(ui, "Device memory", widgets::bytes(stats.gpu_bytes));
     if let Some(run) = session.run() {
         widgets::fact(ui, "Frames in memory", widgets::bytes(run.stream.bytes() as u64));

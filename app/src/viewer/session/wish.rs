@@ -38,7 +38,7 @@ impl Session {
     }
 
     /// The view as the window shows it: as large as there is room.
-    fn drawn_view(&self) -> View {
+    pub fn drawn_view(&self) -> View {
         let mut view = self.complete_view();
         [view.image.width, view.image.height] = self.fitted();
         view
