@@ -13,9 +13,10 @@ pub struct Grid {
     counting: Pipeline,
     scattering: Pipeline,
     sums: Scan,
+    ordering: Pipeline,
     /// Where the references of each cell end, cells along a ray side by side.
     pub cells: Buffer,
-    /// Particles of each cell, in no particular order.
+    /// Particles of each cell, in an order that only their places decide, but for cells of more than 512.
     pub pairs: Buffer,
     /// References in all, cells that hold any.
     pub totals: Buffer,
@@ -40,6 +41,16 @@ impl Grid {
             counting: pipeline("count"),
             scattering: pipeline("scatter"),
             sums: Scan::new(gpu),
+            ordering: Pipeline::new(
+                gpu,
+                &PipelineDescription {
+                    label: "order",
+                    sources: &[FRAME_WGSL, include_str!("order.wgsl")],
+                    entry_point: "order",
+                    constants: &[],
+                    bindings: &[Uniform, Read, Read, Write],
+                },
+            ),
             cells: Buffer::storage(gpu, "cells", 4),
             pairs: Buffer::storage(gpu, "cell-particle pairs", 4),
             totals: Buffer::storage(gpu, "grid totals", 16),
@@ -69,6 +80,7 @@ impl Grid {
             self.count(gpu, pass, uniforms, store);
             result = self.scan(gpu, pass, tile.cells());
             self.scatter(gpu, pass, uniforms, store);
+            self.order(gpu, pass, uniforms, store, tile.bundles());
         });
         result
     }
@@ -98,6 +110,19 @@ impl Grid {
         store: &ParticleStore,
     ) {
         self.walk(&self.scattering, gpu, pass, uniforms, store);
+    }
+
+    /// References of each cell into an order of their own.
+    fn order(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        [_, tile]: [&Buffer; 2],
+        store: &ParticleStore,
+        bundles: u64,
+    ) {
+        let buffers = [tile, &store.projected, &self.cells, &self.pairs].map(Buffer::binding);
+        self.ordering.dispatch(gpu, pass, &buffers, bundles);
     }
 
     fn walk(
