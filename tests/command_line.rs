@@ -285,8 +285,7 @@ fn agree(cell: &str, value: &serde_json::Value) -> bool {
 #[test]
 fn a_bench_writes_tables_that_agree_and_plots() {
     let folder = folder();
-    let arguments =
-        ["bench", "demo", "--frames", "3..5", "--size", "200x150", "--rounds", "2", "--ablations"];
+    let arguments = ["bench", "demo", "--frames", "3..5", "--size", "96x64", "--rounds", "2", "--ablations"];
     let more = ["--tolerances", "0.01", "--discretisation", "--out", "results"];
     let bench = sphcast(folder.path(), &[&arguments[..], &more].concat());
     assert_eq!((bench.status, bench.err.as_str()), (0, ""));

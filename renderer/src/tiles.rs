@@ -29,16 +29,17 @@ pub(crate) struct Job<'a> {
 /// What may be charged to the rays of `tile`; `None` where it is sampled in full: also behind layers
 /// that have been cast before, since the books of its rays are gone.
 fn budget_of(job: &Job, tile: &Tile) -> Option<f32> {
-    let worthwhile = tile.first_layer == 0 && bricks_may_pay(job.scene);
+    let worthwhile = tile.first_layer == 0 && bricks_may_be_covered(job.scene);
     job.scene.sampling.budget().filter(|_| worthwhile)
 }
 
-/// Whether any particle is large enough, at least if it is close to the eye, for the analysis to pay. A
-/// support that hardly covers a brick of 2 × 2 rays × 4 slices gives it no narrow bounds; measured on the
-/// jittered lattice, adaptive pictures were as fast as full ones at supports of 4 pixels, and slower below.
-fn bricks_may_pay(scene: &Scene) -> bool {
-    const LEAST_PIXELS: f64 = 4.0;
-    scene.particles.support_radii()[1] > LEAST_PIXELS * pitch(scene) * scene.camera.near
+/// Whether any particle is large enough, at least if it is close to the eye, for its support to cover a
+/// brick of 2 × 2 rays × 4 slices. Where none is, no brick has a narrow bound, and looking for it is in
+/// vain.
+fn bricks_may_be_covered(scene: &Scene) -> bool {
+    /// Distance of a brick's corner samples from its middle, in pixels: √(½² + ½² + 1½²).
+    const REACH: f64 = 1.66;
+    scene.particles.support_radii()[1] > REACH * pitch(scene) * scene.camera.near
 }
 
 /// The grid whose bounds the device knows, with the quantity and the kernel they hold for.
