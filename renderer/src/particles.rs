@@ -89,8 +89,9 @@ impl ParticleSet {
         let bounds = verdicts.bounds;
         let origin = bounds.map_or(DVec3::ZERO, |bounds| bounds.centre());
         let radii = verdicts.radii;
-        // The nearest power of two: rescaling rounds nothing.
-        let unit = if kept == 0 { 1.0 } else { power_of_two(radii[0].sqrt() * radii[1].sqrt()) };
+        // A length of the run itself, so that the same run in another unit is the same to the device: f64
+        // rounds its positions far below their f32 parts.
+        let unit = if kept == 0 { 1.0 } else { radii[0].sqrt() * radii[1].sqrt() };
         let middle_weight = geometric_mean(verdicts.weights);
 
         let (high, low) = (0..kept)
@@ -194,7 +195,7 @@ impl ParticleSet {
         })
     }
 
-    /// Length of the device's unit in the unit of the run, a power of two.
+    /// Length of the device's unit in the unit of the run.
     pub(crate) fn unit(&self) -> f64 {
         self.unit
     }
@@ -354,9 +355,4 @@ fn weight_of(raw: &RawParticle) -> f64 {
 /// The middle of two logarithms.
 fn geometric_mean([low, high]: [f64; 2]) -> f64 {
     if low <= high { 0.5 * (low + high) } else { 0.0 }
-}
-
-/// The power of two nearest below `length`.
-fn power_of_two(length: f64) -> f64 {
-    length.log2().floor().exp2()
 }

@@ -8,14 +8,6 @@
 // A workgroup takes a bundle from front to back, four filled cells at a time: lane l has column
 // l mod 16 of the group's cell l/16, with its four bricks.
 
-struct CellEntry {
-    // Values of the cell as a whole.
-    values: vec2<f32>,
-    // A slot + 2; 1 where only the values are known; 0 for neither.
-    slot: u32,
-    padding: u32,
-}
-
 @group(0) @binding(12) var<storage, read_write> cell_values: array<CellEntry>;
 @group(0) @binding(13) var<storage, read_write> slots_taken: atomic<u32>;
 // For each column of a slot: lower and upper values of its bricks; what they charge, −1 where no light comes from; and
@@ -302,7 +294,7 @@ fn file_cell(cell: Cell, number: u32) {
     let shows_some = atomicLoad(&shown[number]) > 0u;
     if count == 0u {
         sampled[cell.cell] = select(0u, 1u, shows_some);
-        atomicAdd(&counters[select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some)], 1u);
+        note_class(cell.cell, select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some), 0u);
         return;
     }
     let place = atomicAdd(&work.sampled, 1u);
@@ -312,7 +304,13 @@ fn file_cell(cell: Cell, number: u32) {
     } else {
         parts[atomicAdd(&work.parts, 1u)] = vec4(cell.cell, place, mask);
     }
-    atomicAdd(&counters[select(CELLS_FULL, CELLS_MIXED, shows_some)], 1u);
+    note_class(cell.cell, select(CELLS_FULL, CELLS_MIXED, shows_some), count);
+}
+
+// `class_index`: the place of its counter.
+fn note_class(cell: u32, class_index: u32, sampled_bricks: u32) {
+    atomicAdd(&counters[class_index], 1u);
+    cell_values[cell].class_and_bricks = class_index | sampled_bricks << 8u;
 }
 
 @compute @workgroup_size(LANES)

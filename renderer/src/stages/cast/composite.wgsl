@@ -1,12 +1,12 @@
 // Puts the cells of a bundle together, from front to back: those that were sampled, and those shown by
 // the middles of their bricks. A lane a ray.
 
-// As in adapt/levels.wgsl and cast/work.wgsl; of a cell's entry, the third word is its slot + 2.
+// As in adapt/levels.wgsl and cast/work.wgsl.
 @group(0) @binding(12) var<storage, read_write> pixels: array<vec4<f32>>;
 @group(0) @binding(13) var<storage, read> segments: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read> sampled: array<u32>;
 @group(0) @binding(15) var<storage, read> last_layers: array<u32>;
-@group(0) @binding(16) var<storage, read> cell_values: array<vec4<u32>>;
+@group(0) @binding(16) var<storage, read> cell_values: array<CellEntry>;
 @group(0) @binding(17) var<storage, read> shows: array<vec4<f32>>;
 
 @compute @workgroup_size(LANES)
@@ -28,7 +28,7 @@ fn composite_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
             if place > 1u {
                 segment = segments[(place - 2u) * LANES + lane];
             } else if place == 1u {
-                segment = shows[(cell_values[cell].z - 2u) * COLUMNS + lane / 4u];
+                segment = shows[(cell_values[cell].slot - 2u) * COLUMNS + lane / 4u];
             }
             ray.colour += ray.transparency * segment.rgb;
             ray.transparency *= 1.0 - segment.a;

@@ -1,12 +1,5 @@
 // Cells to be sampled, as adapt/levels.wgsl filed them, and what becomes of them.
 
-// As in adapt/levels.wgsl.
-struct CellEntry {
-    values: vec2<f32>,
-    slot: u32,
-    padding: u32,
-}
-
 struct Work {
     wholes: u32,
     parts: u32,

@@ -12,6 +12,17 @@ const BRICK_DEPTH: u32 = 4u;
 const EMPTY: vec2<f32> = vec2(-1.0, -1.0);
 const COVERED: f32 = 2.0;
 
+// What is known of a cell.
+struct CellEntry {
+    // Values of the cell as a whole.
+    values: vec2<f32>,
+    // Place of its bricks' values + 2; 1 where only the values as a whole are known; 0 for neither.
+    slot: u32,
+    // What became of it in the last choice: the place of its class's counter; from bit 8 on, the number
+    // of its bricks that are sampled. Stale where the bundle had ended before the cell.
+    class_and_bricks: u32,
+}
+
 fn transfer_over(values: vec2<f32>) -> Extremes {
     // The sum with COVERED may have lost half a unit of its last place.
     let high = select(values.y, values.y - COVERED + 3e-7, values.y >= COVERED);
