@@ -15,14 +15,12 @@
 @group(0) @binding(14) var<storage, read_write> bricks: array<ColumnValues>;
 @group(0) @binding(15) var<storage, read_write> charges: array<vec4<f32>>;
 @group(0) @binding(16) var<storage, read_write> shows: array<vec4<f32>>;
-// For each bundle of the tile the layer after the last one that is seen.
-@group(0) @binding(17) var<storage, read_write> last_layers: array<u32>;
+@group(0) @binding(17) var<storage, read_write> bundle_entries: array<BundleEntry>;
 // For each cell its place among those that are sampled + 2, 1 where it is shown, 0 where nothing is.
 @group(0) @binding(18) var<storage, read_write> sampled: array<u32>;
-// Cells to be sampled, where most bricks are and where few are: cell, place among the sampled ones, and
-// bits of the bricks to be sampled.
-@group(0) @binding(19) var<storage, read_write> wholes: array<vec4<u32>>;
-@group(0) @binding(20) var<storage, read_write> parts: array<vec4<u32>>;
+// Cells to be sampled, where most bricks are and where few are: cell, and place among the sampled ones.
+@group(0) @binding(19) var<storage, read_write> wholes: array<vec2<u32>>;
+@group(0) @binding(20) var<storage, read_write> parts: array<vec2<u32>>;
 @group(0) @binding(21) var<storage, read_write> work: Work;
 
 struct Work {
@@ -179,7 +177,7 @@ fn values_in_cell(
     // Read by all before it is written by one.
     let extremes = find_extremes(cell, unknown, number, lane % COLUMNS);
     if unknown {
-        entry = CellEntry(extremes, 1u, 0u);
+        entry = CellEntry(extremes, 1u, 0u, vec2(0u), vec2(0u));
     }
     let transparent = !cell.exists || is_transparent(entry.values);
     let wanted = !transparent && entry.slot == 1u;
@@ -192,7 +190,7 @@ fn values_in_cell(
         slots[number] = atomicAdd(&slots_taken, 1u);
     }
     let most = workgroupUniformLoad(&most_particles);
-    var values = ColumnValues(vec4(EMPTY.x), vec4(EMPTY.y));
+    var values = ColumnValues(vec4(EMPTY.x), vec4(EMPTY.y), vec4(0.0));
     for (var once = 0u; once < min(most, 1u); once += 1u) {
         let found = expand(cell, entry.values.x, wanted, most, axis, column, lane);
         if wanted {
@@ -294,23 +292,24 @@ fn file_cell(cell: Cell, number: u32) {
     let shows_some = atomicLoad(&shown[number]) > 0u;
     if count == 0u {
         sampled[cell.cell] = select(0u, 1u, shows_some);
-        note_class(cell.cell, select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some), 0u);
+        note_class(cell.cell, select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some), mask);
         return;
     }
     let place = atomicAdd(&work.sampled, 1u);
     sampled[cell.cell] = place + 2u;
     if count > MOST_BRICKS {
-        wholes[atomicAdd(&work.wholes, 1u)] = vec4(cell.cell, place, mask);
+        wholes[atomicAdd(&work.wholes, 1u)] = vec2(cell.cell, place);
     } else {
-        parts[atomicAdd(&work.parts, 1u)] = vec4(cell.cell, place, mask);
+        parts[atomicAdd(&work.parts, 1u)] = vec2(cell.cell, place);
     }
-    note_class(cell.cell, select(CELLS_FULL, CELLS_MIXED, shows_some), count);
+    note_class(cell.cell, select(CELLS_FULL, CELLS_MIXED, shows_some), mask);
 }
 
 // `class_index`: the place of its counter.
-fn note_class(cell: u32, class_index: u32, sampled_bricks: u32) {
+fn note_class(cell: u32, class_index: u32, mask: vec2<u32>) {
     atomicAdd(&counters[class_index], 1u);
-    cell_values[cell].class_and_bricks = class_index | sampled_bricks << 8u;
+    cell_values[cell].class_index = class_index;
+    cell_values[cell].sampled = mask;
 }
 
 @compute @workgroup_size(LANES)
@@ -432,8 +431,9 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     if number == 0u {
         let charged = plan.spent + min(used, plan.left) + reserve;
         atomicMax(&counters[LARGEST_CHARGE], bitcast<u32>(charged));
+        bundle_entries[index].charged[column_index] = charged;
     }
     if lane == 0u {
-        last_layers[index] = end_layer;
+        bundle_entries[index].end_layer = end_layer;
     }
 }

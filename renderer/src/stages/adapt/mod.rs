@@ -23,7 +23,7 @@ pub(crate) struct Adapt {
     pub charges: Buffer,
     pub shows: Buffer,
     /// For each bundle.
-    pub last_layers: Buffer,
+    pub bundle_entries: Buffer,
     /// Cells to be sampled, of one submission.
     pub wholes: Buffer,
     pub parts: Buffer,
@@ -57,15 +57,15 @@ impl Adapt {
         };
         Adapt {
             pipelines: Kernel::ALL.iter().map(pipeline).collect(),
-            cell_values: Buffer::storage(gpu, "values of cells", 16),
+            cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
-            bricks: Buffer::storage(gpu, "values of bricks", 32),
+            bricks: Buffer::storage(gpu, "values of bricks", 48),
             charges: Buffer::storage(gpu, "charges of bricks", 16),
             shows: Buffer::storage(gpu, "middles of columns", 16),
-            last_layers: Buffer::storage(gpu, "last layers", 4),
-            wholes: Buffer::storage(gpu, "cells to be sampled", 16),
-            parts: Buffer::storage(gpu, "cells to be sampled in parts", 16),
+            bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),
+            wholes: Buffer::storage(gpu, "cells to be sampled", 8),
+            parts: Buffer::storage(gpu, "cells to be sampled in parts", 8),
             work: Buffer::storage(gpu, "work", 16),
         }
     }
@@ -74,7 +74,7 @@ impl Adapt {
     pub(crate) fn reserve(&mut self, gpu: &Gpu, tile: &Tile, filled: u64) -> Result<(), RenderError> {
         self.cell_values.reserve(gpu, tile.cells())?;
         self.sampled.reserve(gpu, tile.cells())?;
-        self.last_layers.reserve(gpu, tile.bundles())?;
+        self.bundle_entries.reserve(gpu, tile.bundles())?;
         self.bricks.reserve(gpu, filled * COLUMNS)?;
         self.charges.reserve(gpu, filled * COLUMNS)?;
         self.shows.reserve(gpu, filled * COLUMNS)?;
@@ -108,7 +108,7 @@ impl Adapt {
             &self.bricks,
             &self.charges,
             &self.shows,
-            &self.last_layers,
+            &self.bundle_entries,
             &self.sampled,
             &self.wholes,
             &self.parts,
@@ -125,7 +125,7 @@ impl Adapt {
 
     pub(crate) fn bytes(&self) -> u64 {
         let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.charges, &self.shows];
-        let lists = [&self.last_layers, &self.wholes, &self.parts];
+        let lists = [&self.bundle_entries, &self.wholes, &self.parts];
         buffers.into_iter().chain(lists).map(Buffer::bytes).sum()
     }
 }

@@ -124,8 +124,10 @@ impl Cast {
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
         sample(&self.parts[kernel], pass, &adapt.parts, work.parts);
-        let cells =
-            with(shared, &[&self.pixels, segments, &adapt.sampled, &adapt.last_layers, values, &adapt.shows]);
+        let cells = with(
+            shared,
+            &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],
+        );
         self.composite.dispatch(gpu, pass, &cells, bundles);
     }
 

@@ -76,10 +76,10 @@ fn sample_bricks(layer: u32, first: u32, end: u32, count: u32, axis: vec2<f32>, 
 }
 
 // How many chosen bricks have lower bits.
-fn rank_of(task: vec4<u32>, column: u32, brick_layer: u32) -> u32 {
+fn rank_of(mask: vec2<u32>, column: u32, brick_layer: u32) -> u32 {
     let bit = column + 16u * (brick_layer % 2u);
-    let before = task[2u + brick_layer / 2u] & ((1u << bit) - 1u);
-    return countOneBits(before) + select(0u, countOneBits(task.z), brick_layer >= 2u);
+    let before = mask[brick_layer / 2u] & ((1u << bit) - 1u);
+    return countOneBits(before) + select(0u, countOneBits(mask.x), brick_layer >= 2u);
 }
 
 @compute @workgroup_size(LANES)
@@ -90,12 +90,13 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     }
     let task = tasks[number];
     let cell = task.x;
+    let mask = cell_values[cell].sampled;
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
     // The lane's brick.
     let column = lane % COLUMNS;
     let brick_layer = lane / COLUMNS;
-    if is_chosen(task, column, brick_layer) {
-        todo[rank_of(task, column, brick_layer)] = lane;
+    if is_chosen(mask, column, brick_layer) {
+        todo[rank_of(mask, column, brick_layer)] = lane;
     } else {
         let middle = middle_of(cell, column, brick_layer, axis);
         for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
@@ -103,7 +104,7 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
         }
     }
     workgroupBarrier();
-    let count = countOneBits(task.z) + countOneBits(task.w);
+    let count = countOneBits(mask.x) + countOneBits(mask.y);
     sample_bricks(cell % tile.layers, first_of_cell(cell), cells[cell], count, axis, lane);
     workgroupBarrier();
     var segment = vec4(0.0);

@@ -12,15 +12,35 @@ const BRICK_DEPTH: u32 = 4u;
 const EMPTY: vec2<f32> = vec2(-1.0, -1.0);
 const COVERED: f32 = 2.0;
 
+// Values of a column's bricks, components from front to back.
+struct ColumnValues {
+    low: vec4<f32>,
+    high: vec4<f32>,
+    // The share of high − low that comes of the column's width, and not of its bricks' depth: an estimate.
+    lateral: vec4<f32>,
+}
+
 // What is known of a cell.
 struct CellEntry {
     // Values of the cell as a whole.
     values: vec2<f32>,
     // Place of its bricks' values + 2; 1 where only the values as a whole are known; 0 for neither.
     slot: u32,
-    // What became of it in the last choice: the place of its class's counter; from bit 8 on, the number
-    // of its bricks that are sampled. Stale where the bundle had ended before the cell.
-    class_and_bricks: u32,
+    // What became of it in the last choice: the place of its class's counter. Stale, like the masks,
+    // where the bundle ended before the cell.
+    class_index: u32,
+    // Bricks that are sampled, at every slice and at level 2: bit 16·(b mod 2) + c of word b/2 is brick
+    // b of column c.
+    sampled: vec2<u32>,
+    coarse: vec2<u32>,
+}
+
+// What the analysis found out of a bundle.
+struct BundleEntry {
+    // The layer after the last one that is seen.
+    end_layer: u32,
+    // What is charged to the rays of each column.
+    charged: array<f32, 16>,
 }
 
 fn transfer_over(values: vec2<f32>) -> Extremes {
