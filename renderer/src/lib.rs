@@ -20,7 +20,8 @@
 //!    evaluated only at samples inside its support.
 //!
 //! `plan` cuts a picture that does not fit the device into tiles; `tiles` takes one tile through the
-//! stages; `renderer` knows which stages a change makes stale, and skips the others.
+//! stages; `renderer` knows which stages a change makes stale, and skips the others. On demand,
+//! `read_cells` reads back what became of each cell ([`CellMap`], [`BundleDetail`]).
 //!
 //! # Numbers
 //!
@@ -33,6 +34,7 @@
 #[doc(hidden)]
 pub mod bench;
 mod camera;
+mod cell_map;
 mod error;
 mod gpu;
 mod inspect;
@@ -41,6 +43,7 @@ mod pace;
 mod particles;
 mod picture;
 mod plan;
+mod read_cells;
 mod renderer;
 mod sampling;
 mod scene;
@@ -52,6 +55,10 @@ mod transfer;
 mod view;
 
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
+pub use cell_map::{
+    Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,
+    CellMap, KnownValues, MapCell, bundle_of, column_of,
+};
 pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};
 pub use inspect::GridCell;

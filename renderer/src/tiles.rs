@@ -84,6 +84,18 @@ impl Renderer {
         Ok(Ok(size))
     }
 
+    /// Whether the device still has all of the only tile of the last picture, which is that of `job`.
+    pub(crate) fn is_held(&self, job: &Job, tile: &Tile) -> bool {
+        let sorted = self.sorted.as_ref().is_some_and(|(geometry, _)| *geometry == job.geometry);
+        let known = !self.is_adapted(job, tile) || self.analysed == Some(Analysed::of(job));
+        job.only_tile && sorted && known
+    }
+
+    /// Whether `tile` is sampled as an analysis chooses, and not in full.
+    pub(crate) fn is_adapted(&self, job: &Job, tile: &Tile) -> bool {
+        budget_of(job, tile).is_some()
+    }
+
     fn build_grid(
         &mut self,
         job: &Job,

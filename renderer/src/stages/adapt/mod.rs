@@ -4,6 +4,8 @@
 //! The bounds of a cell are found out when a picture first needs them and stay until the grid, the
 //! quantity or the kernel changes; the choice is made anew for each picture.
 
+pub(crate) mod entries;
+
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
