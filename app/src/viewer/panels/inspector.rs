@@ -21,7 +21,10 @@ pub struct Inspector {
 
 /// Size of the contents, in points.
 const WIDTH: f32 = 492.0;
-const TABLE_HEIGHT: f32 = 216.0;
+/// Of the table: what a window of usual height leaves, and the least.
+const TABLE_HEIGHTS: [f32; 2] = [216.0, 80.0];
+/// Height of everything else, with some of the window to spare.
+const OTHERS: f32 = 410.0;
 const MARGIN: f32 = 16.0;
 
 impl Inspector {
@@ -65,7 +68,9 @@ impl Inspector {
         let mut hovered = None;
         inspector_plot::show(ui, session, probed, self.hovered, &mut hovered);
         ui.add_space(6.0);
-        inspector_table::show(ui, probed, TABLE_HEIGHT, self.hovered, &mut hovered);
+        let [most, least] = TABLE_HEIGHTS;
+        let height = (ui.ctx().content_rect().height() - OTHERS).clamp(least, most);
+        inspector_table::show(ui, probed, height, self.hovered, &mut hovered);
         if hovered != self.hovered {
             self.hovered = hovered;
             ui.ctx().request_repaint();
