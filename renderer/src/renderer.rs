@@ -15,6 +15,7 @@ use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
 use crate::stages::cast::Cast;
 use crate::stages::grid::Grid;
+use crate::stages::order::Order;
 use crate::stages::project::Project;
 use crate::stages::shared::{Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth};
 use crate::stats::{Milliseconds, Stats};
@@ -44,6 +45,7 @@ pub struct Renderer {
     pub(crate) transfer: TransferTables,
     pub(crate) project: Project,
     pub(crate) grid: Grid,
+    pub(crate) order: Order,
     pub(crate) bundles: Bundles,
     pub(crate) adapt: Adapt,
     pub(crate) cast: Cast,
@@ -103,6 +105,7 @@ impl Renderer {
             transfer: TransferTables::new(&gpu),
             project: Project::new(&gpu),
             grid: Grid::new(&gpu),
+            order: Order::new(&gpu),
             bundles: Bundles::new(&gpu),
             adapt: Adapt::new(&gpu),
             cast: Cast::new(&gpu, count_inside),
@@ -176,6 +179,7 @@ impl Renderer {
             milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
         picture.stats.gpu_bytes = self.store.bytes()
             + self.grid.bytes()
+            + self.order.bytes()
             + self.bundles.bytes()
             + self.adapt.bytes()
             + self.cast.bytes();

@@ -47,6 +47,8 @@ struct Tile {
 
 const BUNDLE_SIDE: u32 = 8u;
 const CELL_SLICES: f32 = 16.0;
+// Cells with more references than this are summed in chunks of this many (cast/crowds.wgsl).
+const CROWD: u32 = 2048u;
 // Dispatches run over at most this many workgroups in x, and go on in y.
 const ROW_OF_WORKGROUPS: u32 = 32768u;
 
