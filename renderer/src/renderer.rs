@@ -49,8 +49,9 @@ pub struct Renderer {
     pub(crate) bundles: Bundles,
     pub(crate) adapt: Adapt,
     pub(crate) cast: Cast,
-    /// Of full and of adaptive sampling.
+    /// Of full and of adaptive sampling, and of the sums over crowds.
     pub(crate) pace: [Pace; 2],
+    pub(crate) crowd_pace: Pace,
     /// What the device holds: projected particles, and the grid of the only tile.
     pub(crate) projected: Option<Geometry>,
     pub(crate) sorted: Option<(Geometry, GridSize)>,
@@ -110,6 +111,7 @@ impl Renderer {
             adapt: Adapt::new(&gpu),
             cast: Cast::new(&gpu, count_inside),
             pace: [Pace::new(gpu.is_software()); 2],
+            crowd_pace: Pace::new(gpu.is_software()),
             projected: None,
             sorted: None,
             analysed: None,

@@ -159,6 +159,9 @@ impl Renderer {
             let needed = u64::from(totals.pairs);
             if needed <= capacity {
                 self.order_left_cells(totals, times)?;
+                if let Some(too_large) = self.find_crowds(job, tile, totals)? {
+                    return Ok(Err(too_large));
+                }
                 return Ok(Ok(GridSize { pairs: needed, cells: totals.cells.into() }));
             }
             if needed > limit {
@@ -199,6 +202,7 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.bundles.clear_counters(&mut encoder);
         self.gpu.queue.submit([encoder.finish()]);
+        self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
         // Samples of a cell take twice the place of its bounds.
         let most = match budget {
@@ -282,12 +286,12 @@ impl Renderer {
     }
 
     /// Resources that all stages with a workgroup a bundle or a cell share.
-    fn shared_bindings(&self) -> Vec<wgpu::BindingResource<'_>> {
+    pub(crate) fn shared_bindings(&self) -> Vec<wgpu::BindingResource<'_>> {
         self.bundles.bindings([&self.frame, &self.tile], &self.store, &self.grid, &self.transfer)
     }
 
     /// Submits, waits, and adds the time of each stage.
-    fn submit(
+    pub(crate) fn submit(
         &mut self,
         mut encoder: wgpu::CommandEncoder,
         times: &mut Milliseconds,

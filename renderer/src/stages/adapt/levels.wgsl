@@ -69,6 +69,11 @@ struct Cell {
     end: u32,
 }
 
+// Nothing is known of a crowded cell: it may let all light through, and is sampled as a whole.
+fn is_crowd(cell: Cell) -> bool {
+    return cell.end - cell.first > CROWD;
+}
+
 // Where a walk over a bundle's filled cells stands.
 struct Walk {
     layer: u32,
@@ -175,13 +180,14 @@ fn values_in_cell(
     let number = lane / COLUMNS;
     let leader = lane % COLUMNS == 0u;
     var entry = cell_values[cell.cell];
-    let unknown = cell.exists && entry.slot == 0u;
+    let analysed = cell.exists && !is_crowd(cell);
+    let unknown = analysed && entry.slot == 0u;
     // Read by all before it is written by one.
     let extremes = find_extremes(cell, unknown, number, lane % COLUMNS);
     if unknown {
         entry = CellEntry(extremes, 1u, 0u);
     }
-    let transparent = !cell.exists || is_transparent(entry.values);
+    let transparent = !analysed || is_transparent(entry.values);
     let wanted = !transparent && entry.slot == 1u;
     if lane == 0u {
         atomicStore(&most_particles, 0u);
@@ -418,7 +424,8 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
             used += more;
         }
         let affordable = with_mine * (1.0 + ROUNDING) <= plan.left;
-        let chosen = (charge > vec4(0.0)) & ((classes > vec4(plan.marginal)) | (at_margin & vec4(!affordable)));
+        let chosen = vec4(is_crowd(cell))
+            | ((charge > vec4(0.0)) & ((classes > vec4(plan.marginal)) | (at_margin & vec4(!affordable))));
         set_bits(number, column_index, chosen);
         if seen && !all(chosen) {
             atomicAdd(&shown[number], 1u);

@@ -51,7 +51,7 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32) {
 fn sample_bricks(layer: u32, first: u32, end: u32, count: u32, axis: vec2<f32>, lane: u32) {
     let depths = layer_depth[tile.first_layer + layer];
     let middle = vec3(depths.x * axis, depths.y);
-    let reference = clamp(quantities[pairs[first]], 0.0, 1.0);
+    let reference = reference_of(first);
     let units = 4u * count;
     var a = unit_of(lane, units);
     var b = unit_of(lane + LANES, units);

@@ -15,6 +15,12 @@ var<workgroup> loads: array<vec2<f32>, LANES>;
 // Colour and opacity of bricks that are shown unsampled, where some are: brick b of column c is 16b + c.
 var<workgroup> middles: array<vec4<f32>, LANES>;
 
+// What the quantities of a cell are relative to: some particle's, but never an outlier's, against which
+// the others would vanish.
+fn reference_of(first: u32) -> f32 {
+    return clamp(quantities[pairs[first]], 0.0, 1.0);
+}
+
 // Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
 // `reference`, a value of the cell: where all particles have the same one, the sum is exact.
 // `middle`: of the cell, relative to the pivot.
@@ -101,8 +107,7 @@ fn cast_cell(
     let middle = vec3(depth * axis, depths.y);
     let direction = vec3(slope, 1.0);
     let direction_squared = dot(direction, direction);
-    // Some particle's, but never an outlier's, against which the others would vanish.
-    let reference = clamp(quantities[pairs[first]], 0.0, 1.0);
+    let reference = reference_of(first);
     // Sums over particles at the ray's 16 samples. Four vectors rather than an array: an indexed
     // array would live in memory.
     var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
@@ -111,7 +116,9 @@ fn cast_cell(
     var done = 0u;
     var inside = 0u;
 
-    for (var base = first; base < end; base += LANES) {
+    let crowd = portions_of(first, end);
+    let walk_end = select(end, first, crowd.x < crowd.y);
+    for (var base = first; base < walk_end; base += LANES) {
         if base + lane < end {
             load_particle(base + lane, lane, middle, depth, reference);
         }
@@ -156,6 +163,11 @@ fn cast_cell(
     }
     add_to_tally(0u, done);
     if COUNT_INSIDE { add_to_tally(2u, inside); }
+    for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
+        let sums = portion_sums[portion * LANES + lane];
+        w0 += sums[0]; w1 += sums[1]; w2 += sums[2]; w3 += sums[3];
+        q0 += sums[4]; q1 += sums[5]; q2 += sums[6]; q3 += sums[7];
+    }
 
     let path = frame.slab_depth;
     let scale = depth * sqrt(direction_squared) * frame.path_scale;
@@ -164,6 +176,24 @@ fn cast_cell(
     cell = pass_brick(cell, 1u, w1, q1, reference, path[1] * scale, sampled, lane);
     cell = pass_brick(cell, 2u, w2, q2, reference, path[2] * scale, sampled, lane);
     return pass_brick(cell, 3u, w3, q3, reference, path[3] * scale, sampled, lane);
+}
+
+// Adds a particle to the sums at four samples; returns how many evaluations that took, and how many of
+// them had a weight above zero.
+fn add_samples(
+    depths: vec4<f32>,
+    arc: Arc,
+    charge: vec2<f32>,
+    weights: ptr<function, vec4<f32>>,
+    quantities: ptr<function, vec4<f32>>,
+) -> vec2<u32> {
+    if !meets(depths, arc) {
+        return vec2(0u);
+    }
+    let k = kernel_on(depths, arc);
+    *weights += charge.x * k;
+    *quantities += charge.y * k;
+    return vec2(4u, select(0u, positive(k), COUNT_INSIDE));
 }
 
 fn is_sampled(sampled: u32, brick_layer: u32) -> bool {
