@@ -118,7 +118,8 @@ fn radii_over_six_decades() {
 /// The plain scene behind `count` clear particles, all of whose depths are between 1.2 and 2.1.
 fn veiled(count: usize, rate: f64) -> [Scene; 2] {
     let mut random = Random::new(36);
-    let mut bare = scenes::plain(36, 8, 8);
+    let mut bare = with_camera("bare", |camera| camera.fov_y_degrees = 10.0);
+    (bare.view.image.width, bare.view.image.height) = (8, 8);
     bare.view.sampling.rate = rate;
     bare.view.transfer.points = vec![grey(0.0, 0.0, 0.0), grey(0.1, 0.0, 0.0), grey(1.0, 0.8, 0.6)];
     let mut veiled = bare.clone();
@@ -134,7 +135,7 @@ fn veiled(count: usize, rate: f64) -> [Scene; 2] {
 #[test]
 fn more_particles_along_a_ray_than_an_adapter_has_rounds() {
     // In one cell, and in many.
-    for [bare, mut veiled] in [veiled(70_000, 1.0), veiled(10_000, 64.0)] {
+    for [bare, mut veiled] in [veiled(70_000, 0.3), veiled(8_000, 32.0)] {
         let bare = picture(&bare);
         assert!(bare.pixels.iter().any(|pixel| pixel[3] > 0.3), "something lies behind the veil");
         for tolerance in [None, Some(1e-3)] {
