@@ -1,6 +1,20 @@
 //! How densely a picture is sampled: the tolerance, and what may be done within it.
 
+use serde::{Deserialize, Serialize};
+
 use crate::view::SamplingView;
+
+/// Which bound of the error decides what may be left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bound {
+    /// Ours, of the difference from full sampling: what is sampled in full adds nothing to it.
+    #[default]
+    Difference,
+    /// The paper's: the width of the interval in which any sampling of the ray ends (HPG 2016, Sec. 4
+    /// and 5). Strict, it hardly ever allows anything; relaxed, it guarantees nothing. For comparison.
+    Paper,
+}
 
 /// What of a view decides how densely it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,7 +22,12 @@ pub struct Sampling {
     /// E_I: the largest error of any channel of any pixel against full sampling; `None` for full
     /// sampling.
     pub tolerance: Option<f32>,
-    /// Bricks may be shown by one colour.
+    pub bound: Bound,
+    /// E_relax in [0, 1].
+    pub relaxation: f32,
+    /// Cells may be sampled more coarsely along the ray: by the paper's bound only.
+    pub z_adaptive: bool,
+    /// Bricks, or by the paper's bound cells, may be shown by one colour.
     pub super_pixels: bool,
 }
 
@@ -18,13 +37,18 @@ const ROUNDING: f32 = 3e-5;
 
 impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
-        let SamplingView { tolerance, super_pixels, .. } = *view;
-        Sampling { tolerance: tolerance.map(|e| e as f32), super_pixels }
+        let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, .. } = *view;
+        let tolerance = tolerance.map(|e| e as f32);
+        Sampling { tolerance, bound, relaxation: relaxation as f32, z_adaptive, super_pixels }
     }
 
     /// What the bounds may charge to a ray; `None` where nothing may be adapted.
     pub(crate) fn budget(&self) -> Option<f32> {
         let budget = self.tolerance? - ROUNDING;
-        (self.super_pixels && budget > 0.0).then_some(budget)
+        let may_adapt = match self.bound {
+            Bound::Difference => self.super_pixels,
+            Bound::Paper => self.super_pixels || self.z_adaptive,
+        };
+        (may_adapt && budget > 0.0).then_some(budget)
     }
 }

@@ -46,12 +46,16 @@ impl Stats {
             classes.full += cells;
             return;
         }
-        let Counters { full, mixed, super_pixel, transparent, .. } = *counters;
+        let Counters { full, mixed, super_pixel, transparent, z_adaptive, .. } = *counters;
         classes.full += full;
         classes.mixed += mixed;
         classes.super_pixel += super_pixel;
         classes.transparent += transparent;
-        classes.occluded += cells.saturating_sub(full + mixed + super_pixel + transparent);
+        for (class, count) in classes.z_adaptive.iter_mut().zip(z_adaptive) {
+            *class += count;
+        }
+        let coarse: u64 = z_adaptive.iter().sum();
+        classes.occluded += cells.saturating_sub(full + mixed + coarse + super_pixel + transparent);
     }
 }
 

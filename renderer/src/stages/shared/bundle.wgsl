@@ -8,6 +8,11 @@ struct Chunk {
     stride: u32,
     // What may be charged to a ray of an adaptive picture.
     budget: f32,
+    // E_relax.
+    relaxation: f32,
+    // Whether cells may be shown by one colour, and sampled more coarsely along the ray.
+    super_pixels: u32,
+    z_adaptive: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -37,6 +42,8 @@ const CELLS_FULL: u32 = 8u;
 const CELLS_MIXED: u32 = 9u;
 const CELLS_SUPER_PIXEL: u32 = 10u;
 const CELLS_TRANSPARENT: u32 = 11u;
+// The first of four: cells sampled at levels 1 to 4.
+const CELLS_Z_ADAPTIVE: u32 = 12u;
 
 const LANES: u32 = 64u;
 // Quantity of a particle that is left out (Quantity::REJECTED).

@@ -36,6 +36,7 @@ pub(crate) struct FrameUniform {
     pub padding: f32,
     pub sample_offset: [f32; CELL_SLICES as usize],
     pub slab_depth: [f32; CELL_SLICES as usize],
+    pub slab_edge: [f32; CELL_SLICES as usize + 4],
 }
 
 impl FrameUniform {
@@ -74,6 +75,7 @@ impl FrameUniform {
             slab_depth: std::array::from_fn(|k| {
                 ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
             }),
+            slab_edge: std::array::from_fn(|k| (from_middle(k as f64) * step).exp_m1() as f32),
         }
     }
 }
@@ -154,7 +156,8 @@ mod tests {
             far_offset,
             padding,
             sample_offset,
-            slab_depth
+            slab_depth,
+            slab_edge
         );
         check_layout!(
             FRAME_WGSL,
