@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::view::SamplingView;
+use crate::view::{SamplingView, ViewError};
 
 /// Which bound of the error decides what may be left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "lowercase", try_from = "String")]
 pub enum Bound {
     /// Ours, of the difference from full sampling: what is sampled in full adds nothing to it.
     #[default]
@@ -14,6 +14,21 @@ pub enum Bound {
     /// The paper's: the width of the interval in which any sampling of the ray ends (HPG 2016, Sec. 4
     /// and 5). Strict, it hardly ever allows anything; relaxed, it guarantees nothing. For comparison.
     Paper,
+}
+
+impl TryFrom<String> for Bound {
+    type Error = ViewError;
+
+    fn try_from(name: String) -> Result<Bound, ViewError> {
+        match name.as_str() {
+            "difference" => Ok(Bound::Difference),
+            "paper" => Ok(Bound::Paper),
+            _ => {
+                let what = format!("unknown bound `{name}`, expected difference or paper");
+                Err(ViewError::new("sampling.bound", what))
+            }
+        }
+    }
 }
 
 /// What of a view decides how densely it is sampled.
