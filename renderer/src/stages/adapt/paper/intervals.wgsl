@@ -32,9 +32,12 @@ fn width(interval: Interval) -> f32 {
 }
 
 // Takes `slack` from the widths (Sec. 5.1): it raises the lower bounds of irradiance and transparency,
-// and leaves the upper ones. The lower bound of the transparency is the upper one of the opacity.
+// and leaves the upper ones. The lower bound of the transparency is the upper one of the opacity. What is
+// relaxed to nothing must not be turned inside out by rounding.
 fn relaxed(interval: Interval, slack: vec4<f32>) -> Interval {
-    return Interval(interval.low + vec4(slack.rgb, 0.0), interval.high - vec4(vec3(0.0), slack.a));
+    let low = min(interval.low.rgb + slack.rgb, interval.high.rgb);
+    let high = max(interval.high.a - slack.a, interval.low.a);
+    return Interval(vec4(low, interval.low.a), vec4(interval.high.rgb, high));
 }
 
 // Extremes of colour and opacity over the values of a slab. None of its own where no particle is; and
