@@ -38,9 +38,10 @@ pub struct Sampling {
     /// sampling.
     pub tolerance: Option<f32>,
     pub bound: Bound,
-    /// E_relax in [0, 1].
+    /// E_relax in [0, 1]: the share of a brick's lateral width that is not charged where it is sampled more
+    /// coarsely along the ray (HPG 2016, Sec. 5). 0 is a guarantee.
     pub relaxation: f32,
-    /// Cells may be sampled more coarsely along the ray: by the paper's bound only.
+    /// Bricks may be sampled once a ray for their four slices; by the paper's bound, cells at levels 1 to 4.
     pub z_adaptive: bool,
     /// Bricks, or by the paper's bound cells, may be shown by one colour.
     pub super_pixels: bool,
@@ -53,17 +54,22 @@ const ROUNDING: f32 = 3e-5;
 impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
         let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, .. } = *view;
-        let tolerance = tolerance.map(|e| e as f32);
-        Sampling { tolerance, bound, relaxation: relaxation as f32, z_adaptive, super_pixels }
+        let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
+        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels }
+    }
+
+    /// Whether a coarser sampling along rays may cost less than to show one colour, for all that it saves.
+    pub(crate) fn may_coarsen(&self) -> bool {
+        let worthwhile = match self.bound {
+            Bound::Difference => self.relaxation > 0.0 || !self.super_pixels,
+            Bound::Paper => true,
+        };
+        self.z_adaptive && worthwhile
     }
 
     /// What the bounds may charge to a ray; `None` where nothing may be adapted.
     pub(crate) fn budget(&self) -> Option<f32> {
         let budget = self.tolerance? - ROUNDING;
-        let may_adapt = match self.bound {
-            Bound::Difference => self.super_pixels,
-            Bound::Paper => self.super_pixels || self.z_adaptive,
-        };
-        (may_adapt && budget > 0.0).then_some(budget)
+        (budget > 0.0).then_some(budget)
     }
 }

@@ -51,11 +51,9 @@ impl Stats {
         classes.mixed += mixed;
         classes.super_pixel += super_pixel;
         classes.transparent += transparent;
-        for (class, count) in classes.z_adaptive.iter_mut().zip(z_adaptive) {
-            *class += count;
-        }
-        let coarse: u64 = z_adaptive.iter().sum();
-        classes.occluded += cells.saturating_sub(full + mixed + coarse + super_pixel + transparent);
+        classes.z_adaptive.iter_mut().zip(z_adaptive).for_each(|(sum, count)| *sum += count);
+        let looked_at = full + mixed + super_pixel + transparent + z_adaptive.iter().sum::<u64>();
+        classes.occluded += cells.saturating_sub(looked_at);
     }
 }
 

@@ -15,7 +15,7 @@ use crate::sampling::Bound;
 use crate::scene::Scene;
 use paper::Paper;
 
-/// Buffers as `levels.wgsl` describes them.
+/// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
 pub(crate) struct Adapt {
     /// One a kernel.
     pipelines: Vec<Pipeline>,
@@ -26,7 +26,7 @@ pub(crate) struct Adapt {
     slots_taken: Buffer,
     /// For each column of a slot.
     pub bricks: Buffer,
-    pub charges: Buffer,
+    pub offers: Buffer,
     pub shows: Buffer,
     /// For each bundle.
     pub bundle_entries: Buffer,
@@ -53,6 +53,9 @@ impl Adapt {
                         TRANSFER_WGSL,
                         HULL_WGSL,
                         include_str!("bricks.wgsl"),
+                        include_str!("values.wgsl"),
+                        include_str!("offers.wgsl"),
+                        include_str!("filing.wgsl"),
                         include_str!("levels.wgsl"),
                     ],
                     entry_point: "choose_levels",
@@ -67,8 +70,8 @@ impl Adapt {
             cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
-            bricks: Buffer::storage(gpu, "values of bricks", 48),
-            charges: Buffer::storage(gpu, "charges of bricks", 16),
+            bricks: Buffer::storage(gpu, "values of bricks", 32),
+            offers: Buffer::storage(gpu, "offers of bricks", 32),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),
             wholes: Buffer::storage(gpu, "cells to be sampled", 8),
@@ -91,7 +94,7 @@ impl Adapt {
         match bound {
             Bound::Difference => {
                 self.bricks.reserve(gpu, filled * COLUMNS)?;
-                self.charges.reserve(gpu, filled * COLUMNS)?;
+                self.offers.reserve(gpu, filled * COLUMNS)?;
             }
             Bound::Paper => self.paper.reserve(gpu, filled)?,
         }
@@ -127,7 +130,7 @@ impl Adapt {
             &self.cell_values,
             &self.slots_taken,
             &self.bricks,
-            &self.charges,
+            &self.offers,
             &self.shows,
             &self.bundle_entries,
             &self.sampled,
@@ -145,7 +148,7 @@ impl Adapt {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.charges, &self.shows];
+        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.offers, &self.shows];
         let lists = [&self.bundle_entries, &self.wholes, &self.parts];
         buffers.into_iter().chain(lists).map(Buffer::bytes).sum::<u64>() + self.paper.bytes()
     }

@@ -22,6 +22,7 @@ struct Chunk {
     relaxation: f32,
     super_pixels: u32,
     z_adaptive: u32,
+    padding: u32,
 }
 
 /// The first bindings of these shaders, in their order.
@@ -84,13 +85,12 @@ impl Bundles {
     }
 
     /// Says which of the tile's `bundles` the next submission takes: those whose `turns` it is; and
-    /// what may be charged to their rays, for which savings.
+    /// how they are sampled.
     pub(crate) fn write_chunk(
         &mut self,
         gpu: &Gpu,
         turns: Range<u64>,
         bundles: u64,
-        budget: f32,
         sampling: &Sampling,
     ) -> Result<(), RenderError> {
         // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
@@ -100,10 +100,11 @@ impl Bundles {
             first_turn: turns.start as u32,
             end_turn: turns.end as u32,
             stride,
-            budget,
+            budget: sampling.budget().unwrap_or(0.0),
             relaxation: sampling.relaxation,
             super_pixels: sampling.super_pixels.into(),
-            z_adaptive: sampling.z_adaptive.into(),
+            z_adaptive: sampling.may_coarsen().into(),
+            padding: 0,
         };
         self.chunk.write(gpu, &[chunk])
     }
@@ -154,7 +155,7 @@ impl Bundles {
             mixed: words[9].into(),
             super_pixel: words[10].into(),
             transparent: words[11].into(),
-            z_adaptive: std::array::from_fn(|i| words[12 + i].into()),
+            z_adaptive: std::array::from_fn(|level| words[12 + level].into()),
         })
     }
 
@@ -208,7 +209,8 @@ mod tests {
             budget,
             relaxation,
             super_pixels,
-            z_adaptive
+            z_adaptive,
+            padding
         );
     }
 }

@@ -26,15 +26,9 @@ fn edge_of_slab(edge: u32) -> f32 {
 }
 
 fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32) {
-    let particle = pairs[place];
-    let ball = projected[particle];
-    let quantity = quantities[particle];
-    balls[lane] = vec4((ball.xyz - middle) / depth, ball.w / depth);
-    loads[lane] = clamp(quantity, 0.0, 1.0);
-    if quantity > REJECTED {
-        // So far away that it reaches no slab.
-        balls[lane] = vec4(vec3(FAR), 0.0);
-    }
+    let particle = particle_in_cell(place, middle, depth, 0.0);
+    balls[lane] = vec4(particle.ball.xyz, inverseSqrt(particle.ball.w));
+    loads[lane] = clamp(particle.quantity, 0.0, 1.0);
 }
 
 // A column's axis: where it crosses the middle of the cell, and its direction per unit of depth.
