@@ -1,6 +1,6 @@
 //! What is compared: full sampling, and one way or another to sample less.
 
-use renderer::View;
+use renderer::{Bound, View};
 
 use crate::cli::view::Tolerance;
 
@@ -22,17 +22,25 @@ pub struct Ablation {
 }
 
 /// A line for each: its name, and what it changes in the view.
-const ABLATIONS: [Ablation; 3] = [
+const ABLATIONS: [Ablation; 5] = [
     Ablation { name: "only z", change: |view| view.sampling.super_pixels = false },
-    Ablation {
-        name: "skipping only",
-        change: |view| (view.sampling.super_pixels, view.sampling.z_adaptive) = (false, false),
-    },
     Ablation {
         name: "only z relaxed",
         change: |view| (view.sampling.super_pixels, view.sampling.relaxation) = (false, 1.0),
     },
+    Ablation {
+        name: "skipping only",
+        change: |view| (view.sampling.super_pixels, view.sampling.z_adaptive) = (false, false),
+    },
+    Ablation { name: "paper's bound", change: |view| by_the_paper(view, 0.0) },
+    Ablation { name: "paper's bound relaxed", change: |view| by_the_paper(view, 1.0) },
 ];
+
+/// The paper's bound in place of ours.
+fn by_the_paper(view: &mut View, relaxation: f64) {
+    view.sampling.bound = Bound::Paper;
+    view.sampling.relaxation = relaxation;
+}
 
 impl Setting {
     /// Full sampling, which all others are measured against, and then each of `tolerances`, followed by

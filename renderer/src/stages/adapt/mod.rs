@@ -2,18 +2,24 @@
 //! of the bricks that need no samples.
 //!
 //! The bounds of a cell are found out when a picture first needs them and stay until the grid, the
-//! quantity or the kernel changes; the choice is made anew for each picture.
+//! quantity or the kernel changes; the choice is made anew for each picture. [`paper`] is another way.
+
+mod paper;
 
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
+use crate::sampling::Bound;
+use crate::scene::Scene;
+use paper::Paper;
 
 /// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
 pub(crate) struct Adapt {
     /// One a kernel.
     pipelines: Vec<Pipeline>,
+    paper: Paper,
     /// For each cell of a tile.
     pub cell_values: Buffer,
     pub sampled: Buffer,
@@ -60,6 +66,7 @@ impl Adapt {
         };
         Adapt {
             pipelines: Kernel::ALL.iter().map(pipeline).collect(),
+            paper: Paper::new(gpu),
             cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
@@ -74,12 +81,23 @@ impl Adapt {
     }
 
     /// Makes room for the analysis of `tile`, of whose cells `filled` hold particles.
-    pub(crate) fn reserve(&mut self, gpu: &Gpu, tile: &Tile, filled: u64) -> Result<(), RenderError> {
+    pub(crate) fn reserve(
+        &mut self,
+        gpu: &Gpu,
+        tile: &Tile,
+        filled: u64,
+        bound: Bound,
+    ) -> Result<(), RenderError> {
         self.cell_values.reserve(gpu, tile.cells())?;
         self.sampled.reserve(gpu, tile.cells())?;
         self.bundle_entries.reserve(gpu, tile.bundles())?;
-        self.bricks.reserve(gpu, filled * COLUMNS)?;
-        self.offers.reserve(gpu, filled * COLUMNS)?;
+        match bound {
+            Bound::Difference => {
+                self.bricks.reserve(gpu, filled * COLUMNS)?;
+                self.offers.reserve(gpu, filled * COLUMNS)?;
+            }
+            Bound::Paper => self.paper.reserve(gpu, filled)?,
+        }
         self.shows.reserve(gpu, filled * COLUMNS)?;
         self.wholes.reserve(gpu, filled)?;
         self.parts.reserve(gpu, filled)
@@ -101,10 +119,13 @@ impl Adapt {
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
-        kernel: Kernel,
+        scene: &Scene,
         shared: &[wgpu::BindingResource],
         bundles: u64,
     ) {
+        if scene.sampling.bound == Bound::Paper {
+            return self.paper.record(gpu, pass, self, shared, bundles);
+        }
         let own = [
             &self.cell_values,
             &self.slots_taken,
@@ -118,7 +139,7 @@ impl Adapt {
             &self.work,
         ]
         .map(Buffer::binding);
-        self.pipelines[kernel.code() as usize].dispatch(gpu, pass, &[shared, &own].concat(), bundles);
+        self.pipelines[scene.kernel.code() as usize].dispatch(gpu, pass, &[shared, &own].concat(), bundles);
     }
 
     /// Asks for the numbers of cells to be sampled as a whole and in parts.
@@ -129,6 +150,6 @@ impl Adapt {
     pub(crate) fn bytes(&self) -> u64 {
         let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.offers, &self.shows];
         let lists = [&self.bundle_entries, &self.wholes, &self.parts];
-        buffers.into_iter().chain(lists).map(Buffer::bytes).sum()
+        buffers.into_iter().chain(lists).map(Buffer::bytes).sum::<u64>() + self.paper.bytes()
     }
 }
