@@ -44,11 +44,11 @@ var<workgroup> extremes: array<Extremes, SLABS>;
 // The cell at level 0.
 var<workgroup> finest: Interval;
 
-// Finds the cell's slot, or gives it one.
-fn enter_cell(cell: u32, lane: u32) {
+// Finds the cell's slot, or gives it one. A crowded cell's slabs are never looked at.
+fn enter_cell(cell: u32, crowded: bool, lane: u32) {
     if lane == 0u {
         slot = cell_values[cell].slot;
-        unknown = select(0u, 1u, slot == 0u);
+        unknown = select(0u, 1u, slot == 0u && !crowded);
         if slot == 0u {
             slot = atomicAdd(&slots_taken, 1u) + 2u;
             cell_values[cell].slot = slot;
@@ -76,7 +76,8 @@ fn interval_at(level: u32, lengths: vec2<f32>) -> Interval {
 
 // Bounds the cell at every level. `lengths`: of rays in it, as `lengths_in_bundle` has them.
 fn bound_cell(cell: u32, first: u32, end: u32, slope: vec2<f32>, lane: u32) {
-    enter_cell(cell, lane);
+    let crowded = end - first > CROWD;
+    enter_cell(cell, crowded, lane);
     let layer = cell % tile.layers;
     for (var once = 0u; once < workgroupUniformLoad(&unknown); once += 1u) {
         let values = values_of_slab(layer, first, end, slope, lane);
@@ -85,7 +86,9 @@ fn bound_cell(cell: u32, first: u32, end: u32, slope: vec2<f32>, lane: u32) {
         }
     }
     if lane < SLABS {
-        extremes[lane] = extremes_of_slab(bounds[slot - 2u].values[lane]);
+        // Anything may be in a crowded cell, or nothing.
+        let values = select(bounds[slot - 2u].values[lane], vec2(0.0, 1.0), crowded);
+        extremes[lane] = extremes_of_slab(values);
     }
     workgroupBarrier();
     if lane < LEVELS {
