@@ -35,7 +35,7 @@ const WORD: u64 = 4;
 /// Bytes of a cell in the widest of the arrays over all cells.
 const CELL_STRIDE: u64 = 32;
 /// Bytes of an analysed cell in the widest of its arrays, and in all of them.
-const FILLED_STRIDE: u64 = 768;
+const FILLED_STRIDE: u64 = 512;
 const FILLED_BYTES: u64 = 1296;
 
 impl TileLimits {

@@ -162,27 +162,11 @@ fn less(a: Sums, factor: vec4<f32>, b: Sums) -> Sums {
 
 // By how much the linear part of the expansion may exceed its value at the middle.
 fn swing(sums: Sums, column: Column) -> vec4<f32> {
-    return swing_across(sums, column) + swing_along(sums, column);
-}
-
-fn swing_across(sums: Sums, column: Column) -> vec4<f32> {
+    let along = dot(column.direction, column.direction);
     let gradient_x = sums.bend_x - column.depth * column.direction.x * sums.bend;
     let gradient_y = sums.bend_y - column.depth * column.direction.y * sums.bend;
-    return column.half_width * (abs(gradient_x) + abs(gradient_y));
-}
-
-fn swing_along(sums: Sums, column: Column) -> vec4<f32> {
-    let along = dot(column.direction, column.direction);
-    let gradient = sums.bend_along - column.depth * along * sums.bend;
-    return column.half_depth * abs(gradient);
-}
-
-// The share of the quantity's range in each brick that comes of the column's width, to first order.
-fn lateral_share(e: Expansion, column: Column) -> vec4<f32> {
-    let linear = less(e.charge, e.charge.value / e.weight.value, e.weight);
-    let across = swing_across(linear, column);
-    let both = across + swing_along(linear, column);
-    return select(vec4(0.0), across / both, both > vec4(0.0));
+    let gradient_along = sums.bend_along - column.depth * along * sums.bend;
+    return column.half_width * (abs(gradient_x) + abs(gradient_y)) + column.half_depth * abs(gradient_along);
 }
 
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
@@ -223,6 +207,5 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     return ColumnValues(
         select(least, vec4(EMPTY.x), empty),
         select(greatest + select(vec4(0.0), vec4(COVERED), covered), vec4(EMPTY.y), empty),
-        lateral_share(e, column),
     );
 }

@@ -12,7 +12,7 @@ use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
 
-/// Buffers as `levels.wgsl` describes them.
+/// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
 pub(crate) struct Adapt {
     /// One a kernel.
     pipelines: Vec<Pipeline>,
@@ -22,7 +22,7 @@ pub(crate) struct Adapt {
     slots_taken: Buffer,
     /// For each column of a slot.
     pub bricks: Buffer,
-    pub charges: Buffer,
+    pub offers: Buffer,
     pub shows: Buffer,
     /// For each bundle.
     pub bundle_entries: Buffer,
@@ -49,6 +49,9 @@ impl Adapt {
                         TRANSFER_WGSL,
                         HULL_WGSL,
                         include_str!("bricks.wgsl"),
+                        include_str!("values.wgsl"),
+                        include_str!("offers.wgsl"),
+                        include_str!("filing.wgsl"),
                         include_str!("levels.wgsl"),
                     ],
                     entry_point: "choose_levels",
@@ -62,8 +65,8 @@ impl Adapt {
             cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
-            bricks: Buffer::storage(gpu, "values of bricks", 48),
-            charges: Buffer::storage(gpu, "charges of bricks", 16),
+            bricks: Buffer::storage(gpu, "values of bricks", 32),
+            offers: Buffer::storage(gpu, "offers of bricks", 32),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),
             wholes: Buffer::storage(gpu, "cells to be sampled", 8),
@@ -78,7 +81,7 @@ impl Adapt {
         self.sampled.reserve(gpu, tile.cells())?;
         self.bundle_entries.reserve(gpu, tile.bundles())?;
         self.bricks.reserve(gpu, filled * COLUMNS)?;
-        self.charges.reserve(gpu, filled * COLUMNS)?;
+        self.offers.reserve(gpu, filled * COLUMNS)?;
         self.shows.reserve(gpu, filled * COLUMNS)?;
         self.wholes.reserve(gpu, filled)?;
         self.parts.reserve(gpu, filled)
@@ -108,7 +111,7 @@ impl Adapt {
             &self.cell_values,
             &self.slots_taken,
             &self.bricks,
-            &self.charges,
+            &self.offers,
             &self.shows,
             &self.bundle_entries,
             &self.sampled,
@@ -126,7 +129,7 @@ impl Adapt {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.charges, &self.shows];
+        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.offers, &self.shows];
         let lists = [&self.bundle_entries, &self.wholes, &self.parts];
         buffers.into_iter().chain(lists).map(Buffer::bytes).sum()
     }

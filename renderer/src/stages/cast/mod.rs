@@ -119,7 +119,7 @@ impl Cast {
         let kernel = kernel.code() as usize;
         let (segments, values) = (&self.segments, &adapt.cell_values);
         let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
-            let own = [segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.charges];
+            let own = [segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);

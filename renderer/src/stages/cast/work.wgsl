@@ -13,7 +13,8 @@ struct Work {
 @group(0) @binding(14) var<storage, read> tasks: array<vec2<u32>>;
 @group(0) @binding(15) var<storage, read> cell_values: array<CellEntry>;
 @group(0) @binding(16) var<storage, read> bricks: array<ColumnValues>;
-@group(0) @binding(17) var<storage, read> charges: array<vec4<f32>>;
+// Costs of showing or coarsely sampling a column's bricks, negative where no light comes from.
+@group(0) @binding(17) var<storage, read> offers: array<array<vec4<f32>, 2>>;
 
 // Whether a brick is in a mask of CellEntry.
 fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
@@ -26,5 +27,5 @@ fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
     let hull = hull_of(vec2(bricks[place].low[brick_layer], bricks[place].high[brick_layer]), paths);
-    return select(vec4(0.0), hull.middle, charges[place][brick_layer] >= 0.0);
+    return select(vec4(0.0), hull.middle, offers[place][0][brick_layer] >= 0.0);
 }

@@ -1,0 +1,89 @@
+// What the choice makes of cells: masks of the bricks to be sampled, classes, and lists of work.
+
+// For each cell its place among those that are sampled + 2, 1 where it is shown, 0 where nothing is.
+@group(0) @binding(18) var<storage, read_write> sampled: array<u32>;
+// Cells to be sampled, where most bricks are and where few are: cell, and place among the sampled ones.
+@group(0) @binding(19) var<storage, read_write> wholes: array<vec2<u32>>;
+@group(0) @binding(20) var<storage, read_write> parts: array<vec2<u32>>;
+@group(0) @binding(21) var<storage, read_write> work: Work;
+
+struct Work {
+    wholes: atomic<u32>,
+    parts: atomic<u32>,
+    sampled: atomic<u32>,
+}
+
+// Bricks and columns that four lanes can sample, each with two units of work.
+const MOST_UNITS: u32 = 32u;
+
+// Bricks of the group's cells to be sampled at every slice, and at level 2: two words each (CellEntry).
+var<workgroup> sampled_masks: array<atomic<u32>, 8>;
+var<workgroup> coarse_masks: array<atomic<u32>, 8>;
+// Columns of a cell in which some brick is shown unsampled.
+var<workgroup> shown: array<atomic<u32>, GROUP_CELLS>;
+
+fn clear_masks(lane: u32) {
+    if lane < 8u {
+        atomicStore(&sampled_masks[lane], 0u);
+        atomicStore(&coarse_masks[lane], 0u);
+    }
+    if lane < GROUP_CELLS {
+        atomicStore(&shown[lane], 0u);
+    }
+}
+
+// Bits of a column's bricks in the two words of a mask.
+fn bits_of(column: u32, chosen: vec4<bool>) -> vec2<u32> {
+    let bit = 1u << column;
+    return vec2(
+        select(0u, bit, chosen.x) | select(0u, bit << 16u, chosen.y),
+        select(0u, bit, chosen.z) | select(0u, bit << 16u, chosen.w),
+    );
+}
+
+fn note_column(number: u32, column: u32, fine: vec4<bool>, coarse: vec4<bool>, seen: bool) {
+    let fine_bits = bits_of(column, fine);
+    let coarse_bits = bits_of(column, coarse);
+    atomicOr(&sampled_masks[2u * number], fine_bits.x);
+    atomicOr(&sampled_masks[2u * number + 1u], fine_bits.y);
+    atomicOr(&coarse_masks[2u * number], coarse_bits.x);
+    atomicOr(&coarse_masks[2u * number + 1u], coarse_bits.y);
+    if seen && !all(fine | coarse) {
+        atomicAdd(&shown[number], 1u);
+    }
+}
+
+// Notes a cell's masks and class, and puts it on the list of those to be sampled as a whole or in parts.
+fn file_cell(cell: u32, number: u32) {
+    let fine = vec2(atomicLoad(&sampled_masks[2u * number]), atomicLoad(&sampled_masks[2u * number + 1u]));
+    let coarse = vec2(atomicLoad(&coarse_masks[2u * number]), atomicLoad(&coarse_masks[2u * number + 1u]));
+    let shows_some = atomicLoad(&shown[number]) > 0u;
+    let bricks = countOneBits(fine.x) + countOneBits(fine.y);
+    let units = bricks + countOneBits(columns_in(coarse));
+    let class_index = class_of_cell(bricks, units, shows_some);
+    atomicAdd(&counters[class_index], 1u);
+    cell_values[cell].class_index = class_index;
+    cell_values[cell].sampled = fine;
+    cell_values[cell].coarse = coarse;
+    if units == 0u {
+        sampled[cell] = select(0u, 1u, shows_some);
+        return;
+    }
+    let place = atomicAdd(&work.sampled, 1u);
+    sampled[cell] = place + 2u;
+    if units > MOST_UNITS {
+        wholes[atomicAdd(&work.wholes, 1u)] = vec2(cell, place);
+    } else {
+        parts[atomicAdd(&work.parts, 1u)] = vec2(cell, place);
+    }
+}
+
+fn class_of_cell(bricks: u32, units: u32, shows_some: bool) -> u32 {
+    if units == 0u {
+        return select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some);
+    }
+    if bricks == 0u {
+        return CELLS_Z_ADAPTIVE + 1u;
+    }
+    return select(CELLS_FULL, CELLS_MIXED, shows_some || units > bricks);
+}
