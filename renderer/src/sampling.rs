@@ -15,6 +15,23 @@ pub struct Sampling {
     pub z_adaptive: bool,
     /// Bricks may be shown by one colour.
     pub super_pixels: bool,
+    /// For measurements; no view asks for it.
+    #[doc(hidden)]
+    pub without: Without,
+}
+
+/// A part of the method that is left out, to see what it is worth. The tolerance is kept without it.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Without {
+    #[default]
+    Nothing,
+    /// Bricks are bounded by the extremes of their particles.
+    Expansion,
+    /// Any ray may miss the particles of any brick.
+    Coverage,
+    /// Bricks are shown from front to back until the budget is used up.
+    Greed,
 }
 
 /// By how much single precision and the early end of rays (transparency 10⁻⁵) may set two pictures
@@ -25,7 +42,7 @@ impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
         let SamplingView { tolerance, relaxation, z_adaptive, super_pixels, .. } = *view;
         let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
-        Sampling { tolerance, relaxation, z_adaptive, super_pixels }
+        Sampling { tolerance, relaxation, z_adaptive, super_pixels, without: Without::Nothing }
     }
 
     /// Whether a coarser sampling of bricks may cost less than to show them, for all that it saves.

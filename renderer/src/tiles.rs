@@ -8,6 +8,7 @@ use crate::kernel::Kernel;
 use crate::picture::Picture;
 use crate::plan::{Tile, TileLimits};
 use crate::renderer::{Geometry, GridSize, Progress, Renderer};
+use crate::sampling::Without;
 use crate::scene::Scene;
 use crate::selection;
 use crate::stages::cast::Work;
@@ -42,18 +43,20 @@ fn bricks_may_be_covered(scene: &Scene) -> bool {
     scene.particles.support_radii()[1] > REACH * pitch(scene) * scene.camera.near
 }
 
-/// The grid whose bounds the device knows, with the quantity and the kernel they hold for.
+/// The grid whose bounds the device knows, with what they hold for.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Analysed {
     geometry: Geometry,
     quantity: u64,
     kernel: Kernel,
+    without: Without,
 }
 
 impl Analysed {
     fn of(job: &Job) -> Analysed {
         let (scene, geometry) = (job.scene, job.geometry.clone());
-        Analysed { geometry, quantity: scene.quantity.id(), kernel: scene.kernel }
+        let (kernel, without) = (scene.kernel, scene.sampling.without);
+        Analysed { geometry, quantity: scene.quantity.id(), kernel, without }
     }
 }
 
@@ -209,7 +212,7 @@ impl Renderer {
             let times = &mut picture.stats.milliseconds;
             match budget {
                 None => self.cast_fully(job.scene.kernel, end - first, times)?,
-                Some(_) => self.cast_adaptively(job.scene.kernel, end - first, times)?,
+                Some(_) => self.cast_adaptively(job.scene, end - first, times)?,
             }
             self.pace[usize::from(budget.is_some())].learn(end - first, begin.elapsed());
             first = end;
@@ -221,6 +224,7 @@ impl Renderer {
     /// Makes room for the bounds of `tile`, and forgets them where they hold for something else.
     fn prepare_analysis(&mut self, job: &Job, tile: &Tile, size: GridSize) -> Result<(), RenderError> {
         self.adapt.reserve(&self.gpu, tile, size.cells)?;
+        self.adapt.prepare(&self.gpu, job.scene.kernel, job.scene.sampling.without);
         let known = self.analysed.take().filter(|known| job.only_tile && *known == Analysed::of(job));
         if known.is_none() {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
@@ -247,7 +251,7 @@ impl Renderer {
     /// Chooses what to sample in `bundles` bundles, and samples it.
     fn cast_adaptively(
         &mut self,
-        kernel: Kernel,
+        scene: &Scene,
         bundles: u64,
         times: &mut Milliseconds,
     ) -> Result<(), RenderError> {
@@ -255,7 +259,7 @@ impl Renderer {
         self.adapt.clear_work(&mut encoder);
         let shared = self.shared_bindings();
         self.timing.pass(&mut encoder, "analysis", |pass| {
-            self.adapt.record(&self.gpu, pass, kernel, &shared, bundles);
+            self.adapt.record(&self.gpu, pass, scene, &shared, bundles);
         });
         let work = self.adapt.read_work(&self.gpu, &mut encoder);
         drop(shared);
@@ -267,7 +271,7 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let shared = self.shared_bindings();
         self.timing.pass(&mut encoder, "ray cast", |pass| {
-            self.cast.record_adaptive(&self.gpu, pass, kernel, &shared, &self.adapt, work, bundles);
+            self.cast.record_adaptive(&self.gpu, pass, scene.kernel, &shared, &self.adapt, work, bundles);
         });
         drop(shared);
         self.submit(encoder, times)
