@@ -35,6 +35,7 @@
 pub mod bench;
 mod camera;
 mod cell_map;
+mod crowds;
 mod error;
 mod gpu;
 mod inspect;

@@ -18,6 +18,9 @@ pub struct Sampling {
     /// For measurements; no view asks for it.
     #[doc(hidden)]
     pub without: Without,
+    /// Analysed even where that hardly pays: for tests.
+    #[doc(hidden)]
+    pub anyway: bool,
 }
 
 /// A part of the method that is left out, to see what it is worth. The tolerance is kept without it.
@@ -42,7 +45,8 @@ impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
         let SamplingView { tolerance, relaxation, z_adaptive, super_pixels, .. } = *view;
         let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
-        Sampling { tolerance, relaxation, z_adaptive, super_pixels, without: Without::Nothing }
+        let (without, anyway) = (Without::Nothing, false);
+        Sampling { tolerance, relaxation, z_adaptive, super_pixels, without, anyway }
     }
 
     /// Whether a coarser sampling of bricks may cost less than to show them, for all that it saves.

@@ -201,8 +201,8 @@ pub struct Trial {
     pub comparison: Comparison,
 }
 
-/// Renders `scene`, which has a tolerance, both ways. The grid of particles stays the same, and with
-/// it the order of all sums: what differs is the sampling.
+/// Renders `scene`, which has a tolerance, both ways; adaptively even where that is not worth its while.
+/// The grid of particles stays the same, and with it the order of all sums: what differs is the sampling.
 pub fn try_out(renderer: &mut Renderer, scene: &Scene) -> Trial {
     try_without(renderer, scene, Without::Nothing)
 }
@@ -211,7 +211,7 @@ pub fn try_out(renderer: &mut Renderer, scene: &Scene) -> Trial {
 pub fn try_without(renderer: &mut Renderer, scene: &Scene, part: Without) -> Trial {
     let tolerance = scene.view.sampling.tolerance.expect("a trial needs a tolerance");
     let mut prepared = prepare(scene);
-    prepared.sampling.without = part;
+    (prepared.sampling.without, prepared.sampling.anyway) = (part, true);
     let mut unadapted = prepared.clone();
     unadapted.sampling.tolerance = None;
     let full = render(renderer, &unadapted);

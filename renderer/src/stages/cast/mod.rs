@@ -4,6 +4,10 @@
 //! sampled are work of their own, independent of each other, so that a workgroup does one thing: it
 //! samples a cell as a whole, or some of its bricks. Then the cells of a bundle are put together.
 
+mod crowds;
+
+pub(crate) use crowds::{CROWD, Crowds, portions};
+
 use super::adapt::Adapt;
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
@@ -11,15 +15,18 @@ use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
 
+const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
 const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
 const WORK_WGSL: &str = include_str!("work.wgsl");
 
 pub(crate) struct Cast {
     /// One a kernel.
+    portions: Vec<Pipeline>,
     full: Vec<Pipeline>,
     wholes: Vec<Pipeline>,
     parts: Vec<Pipeline>,
     composite: Pipeline,
+    pub crowds: Crowds,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
     /// Colour and opacity of each ray in a sampled cell, 64 a cell.
@@ -59,16 +66,25 @@ impl Cast {
             Kernel::ALL.iter().map(|&kernel| pipeline(kernel, entry_point, sources, bindings)).collect()
         };
         Cast {
-            full: pipelines("cast_rays", &[SAMPLES_WGSL, include_str!("full.wgsl")], &[Write]),
+            portions: pipelines(
+                "sum_portions",
+                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
+                &[Read, Write],
+            ),
+            full: pipelines(
+                "cast_rays",
+                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("full.wgsl")],
+                &[Read, Write, Write],
+            ),
             wholes: pipelines(
                 "sample_wholes",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             parts: pipelines(
                 "sample_parts",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             composite: pipeline(
                 Kernel::default(),
@@ -76,6 +92,7 @@ impl Cast {
                 &[HULL_WGSL, include_str!("composite.wgsl")],
                 &[Write, Read, Read, Read, Read, Read],
             ),
+            crowds: Crowds::new(gpu),
             pixels: Buffer::storage(gpu, "pixels", 16),
             segments: Buffer::storage(gpu, "segments of rays", 16),
         }
@@ -91,6 +108,20 @@ impl Cast {
         self.segments.reserve(gpu, (work.wholes + work.parts) * 64)
     }
 
+    /// Records the sums over `portions` portions of crowded cells. `shared`: resources for
+    /// [`BUNDLE_BINDINGS`], whose turns are portions here.
+    pub(crate) fn record_portions(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        kernel: Kernel,
+        shared: &[wgpu::BindingResource],
+        portions: u64,
+    ) {
+        let resources = with(shared, &self.crowds.buffers());
+        self.portions[kernel.code() as usize].dispatch(gpu, pass, &resources, portions);
+    }
+
     /// Records full sampling of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
     pub(crate) fn record_full(
         &self,
@@ -100,7 +131,8 @@ impl Cast {
         shared: &[wgpu::BindingResource],
         bundles: u64,
     ) {
-        let resources = with(shared, &[&self.pixels]);
+        let [portions, sums] = self.crowds.buffers();
+        let resources = with(shared, &[portions, sums, &self.pixels]);
         self.full[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
     }
 
@@ -118,8 +150,9 @@ impl Cast {
     ) {
         let kernel = kernel.code() as usize;
         let (segments, values) = (&self.segments, &adapt.cell_values);
+        let [portions, sums] = self.crowds.buffers();
         let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
-            let own = [segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
+            let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
@@ -132,7 +165,7 @@ impl Cast {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes() + self.segments.bytes()
+        self.pixels.bytes() + self.segments.bytes() + self.crowds.bytes()
     }
 }
 
