@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::cell_map::CellClass;
 use crate::particles::Rejected;
 use crate::stages::shared::Counters;
 
@@ -73,6 +74,20 @@ pub struct CellClasses {
     pub transparent: u64,
     /// Behind what lets no light through that the tolerance would notice.
     pub occluded: u64,
+}
+
+impl CellClasses {
+    pub(crate) fn add(&mut self, class: CellClass) {
+        let count = match class {
+            CellClass::Full => &mut self.full,
+            CellClass::Mixed => &mut self.mixed,
+            CellClass::ZAdaptive(level) => &mut self.z_adaptive[usize::from(level.clamp(1, 4)) - 1],
+            CellClass::SuperPixel => &mut self.super_pixel,
+            CellClass::Transparent => &mut self.transparent,
+            CellClass::Occluded => &mut self.occluded,
+        };
+        *count += 1;
+    }
 }
 
 /// Kernel weights computed for one particle at one place.
