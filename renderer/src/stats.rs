@@ -77,16 +77,24 @@ pub struct CellClasses {
 }
 
 impl CellClasses {
+    /// Cells of one class.
+    pub fn count(mut self, class: CellClass) -> u64 {
+        *self.of(class)
+    }
+
     pub(crate) fn add(&mut self, class: CellClass) {
-        let count = match class {
+        *self.of(class) += 1;
+    }
+
+    fn of(&mut self, class: CellClass) -> &mut u64 {
+        match class {
             CellClass::Full => &mut self.full,
             CellClass::Mixed => &mut self.mixed,
             CellClass::ZAdaptive(level) => &mut self.z_adaptive[usize::from(level.clamp(1, 4)) - 1],
             CellClass::SuperPixel => &mut self.super_pixel,
             CellClass::Transparent => &mut self.transparent,
             CellClass::Occluded => &mut self.occluded,
-        };
-        *count += 1;
+        }
     }
 }
 
