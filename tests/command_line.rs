@@ -133,9 +133,10 @@ fn failures_give_status_1_and_one_line_that_names_the_file() {
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("typo.json", "{\n  \"kamera\": {}\n}");
     write("range.json", r#"{"camera": {"eye": [0, 0, 0], "target": [0, 0, 0]}}"#);
+    write("bound.json", r#"{"sampling": {"bound": "tight"}}"#);
     write("broken.json", "{\n");
     write("a.png", "no picture");
-    let cases: [(&[&str], &str); 9] = [
+    let cases: [(&[&str], &str); 10] = [
         (&["info", "no.vtk"], "no.vtk: no such file or directory"),
         (&["info", "demo:cube:5"], "demo:cube:5: there is no demo `cube`"),
         (&["info", "run/frame_2.vtk"], "run/frame_2.vtk: "),
@@ -146,6 +147,10 @@ fn failures_give_status_1_and_one_line_that_names_the_file() {
             "typo.json: unknown field `kamera`",
         ),
         (&["render", "one.vtk", "--out", "o.png", "--view", "range.json"], "range.json: camera.target: "),
+        (
+            &["render", "one.vtk", "--out", "o.png", "--view", "bound.json"],
+            "bound.json: sampling.bound: unknown bound `tight`",
+        ),
         (&["render", "one.vtk", "--out", "o.png", "--view", "broken.json"], "broken.json: "),
         (&["compare", "a.png", "a.png"], "a.png: "),
     ];

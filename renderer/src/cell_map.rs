@@ -178,6 +178,8 @@ pub struct Brick {
     pub values: KnownValues,
     /// What it would add to the error of its rays without a sample; `None` where they have ended.
     pub charge: Option<f32>,
+    /// What it would add at level 2, where that is considered.
+    pub coarse_charge: Option<f32>,
 }
 
 /// Bricks of a cell, by column, from front to back.
@@ -203,7 +205,11 @@ impl CellDetail {
             return 0.0;
         }
         let open = |brick: &usize| !self.cell.sampled.contains(column, *brick);
-        let charge = |brick: usize| bricks[column][brick].charge.unwrap_or(0.0);
+        let charge = |brick: usize| {
+            let Brick { charge, coarse_charge, .. } = bricks[column][brick];
+            let coarse = self.cell.coarse.contains(column, brick);
+            (if coarse { coarse_charge } else { charge }).unwrap_or(0.0)
+        };
         (0..COLUMN_BRICKS).filter(open).map(charge).sum()
     }
 }

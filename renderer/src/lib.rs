@@ -35,6 +35,7 @@
 pub mod bench;
 mod camera;
 mod cell_map;
+mod crowds;
 mod error;
 mod gpu;
 mod inspect;
@@ -66,7 +67,7 @@ pub use kernel::Kernel;
 pub use particles::{Bounds, ParticleSet, Quantity, RawParticle, Rejected};
 pub use picture::Picture;
 pub use renderer::{Progress, Renderer};
-pub use sampling::Sampling;
+pub use sampling::{Bound, Sampling, Without};
 pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ControlPoint, TransferFunction};

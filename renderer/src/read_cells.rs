@@ -15,7 +15,9 @@ use crate::picture::Picture;
 use crate::plan::{self, Tile};
 use crate::renderer::{Progress, Renderer};
 use crate::scene::Scene;
-use crate::stages::adapt::entries::{BundleEntry, COVERED, CellEntry, ColumnValues, FIRST_SLOT, WHOLE_KNOWN};
+use crate::stages::adapt::entries::{
+    BundleEntry, COVERED, CellEntry, ColumnValues, FIRST_SLOT, Offers, WHOLE_KNOWN,
+};
 use crate::stats::Milliseconds;
 use crate::tiles::Job;
 
@@ -195,14 +197,15 @@ impl Renderer {
         }
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let values = self.adapt.bricks.read_ranges(&self.gpu, &mut encoder, &places);
-        let charges = self.adapt.charges.read_ranges(&self.gpu, &mut encoder, &places);
+        let offers = self.adapt.offers.read_ranges(&self.gpu, &mut encoder, &places);
         self.gpu.queue.submit([encoder.finish()]);
         let values: Vec<ColumnValues> = values.take(&self.gpu)?;
-        let charges: Vec<[f32; 4]> = charges.take(&self.gpu)?;
+        let offers: Vec<Offers> = offers.take(&self.gpu)?;
         let column = |place: usize| {
             std::array::from_fn(|brick| Brick {
                 values: KnownValues::of([values[place].low[brick], values[place].high[brick]]),
-                charge: Some(charges[place][brick]).filter(|charge| *charge >= 0.0),
+                charge: offers[place].to_show(brick),
+                coarse_charge: offers[place].to_coarsen(brick),
             })
         };
         let cell = |number: usize| std::array::from_fn(|c| column(number * COLUMNS + c));

@@ -9,6 +9,10 @@
 // the weights (their error falls with the brick's width, this one's with its square), and the lower
 // bound of Σ w_j proves coverage.
 
+// Parts that are left out where somebody measures what they are worth.
+override EXTREMES_ONLY: bool = false;
+override NO_COVERAGE: bool = false;
+
 // Lengths and places as in the cell.
 struct Column {
     // The axis where it crosses the middle of the cell, and its direction per unit of depth.
@@ -162,27 +166,11 @@ fn less(a: Sums, factor: vec4<f32>, b: Sums) -> Sums {
 
 // By how much the linear part of the expansion may exceed its value at the middle.
 fn swing(sums: Sums, column: Column) -> vec4<f32> {
-    return swing_across(sums, column) + swing_along(sums, column);
-}
-
-fn swing_across(sums: Sums, column: Column) -> vec4<f32> {
+    let along = dot(column.direction, column.direction);
     let gradient_x = sums.bend_x - column.depth * column.direction.x * sums.bend;
     let gradient_y = sums.bend_y - column.depth * column.direction.y * sums.bend;
-    return column.half_width * (abs(gradient_x) + abs(gradient_y));
-}
-
-fn swing_along(sums: Sums, column: Column) -> vec4<f32> {
-    let along = dot(column.direction, column.direction);
-    let gradient = sums.bend_along - column.depth * along * sums.bend;
-    return column.half_depth * abs(gradient);
-}
-
-// The share of the quantity's range in each brick that comes of the column's width, to first order.
-fn lateral_share(e: Expansion, column: Column) -> vec4<f32> {
-    let linear = less(e.charge, e.charge.value / e.weight.value, e.weight);
-    let across = swing_across(linear, column);
-    let both = across + swing_along(linear, column);
-    return select(vec4(0.0), across / both, both > vec4(0.0));
+    let gradient_along = sums.bend_along - column.depth * along * sums.bend;
+    return column.half_width * (abs(gradient_x) + abs(gradient_y)) + column.half_depth * abs(gradient_along);
 }
 
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
@@ -205,7 +193,8 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
-    let expanded = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let known = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let expanded = select(known, vec4(0.0), EXTREMES_ONLY);
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     let covered = least_weight > 1e-4 * e.weight.value;
     let safe_weight = select(vec4(1.0), least_weight, covered);
@@ -213,7 +202,7 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let upper = bound(e, column, safe_weight, 1.0) + rounding;
     let lower = bound(e, column, safe_weight, -1.0) - rounding;
     // Where one of them is no number, the extremes stay.
-    let better = covered & (lower <= upper);
+    let better = covered & (lower <= upper) & vec4(!EXTREMES_ONLY);
     let low = select(e.low, max(e.low, min(lower, e.high)), better);
     let high = select(e.high, min(e.high, max(upper, e.low)), better);
     // Rounded outward by as much as a sample's quantity may be off.
@@ -222,7 +211,6 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let empty = e.low > e.high;
     return ColumnValues(
         select(least, vec4(EMPTY.x), empty),
-        select(greatest + select(vec4(0.0), vec4(COVERED), covered), vec4(EMPTY.y), empty),
-        lateral_share(e, column),
+        select(greatest + select(vec4(0.0), vec4(COVERED), covered & vec4(!NO_COVERAGE)), vec4(EMPTY.y), empty),
     );
 }

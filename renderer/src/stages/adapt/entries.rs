@@ -32,7 +32,27 @@ pub(crate) struct BundleEntry {
 pub(crate) struct ColumnValues {
     pub low: [f32; 4],
     pub high: [f32; 4],
-    pub lateral: [f32; 4],
+}
+
+/// `Offers` of `offers.wgsl`: costs of the steps by which the bricks of a column are sampled less.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct Offers {
+    pub first: [f32; 4],
+    pub second: [f32; 4],
+}
+
+impl Offers {
+    /// What it costs in all to show a brick unsampled; `None` where no light comes from it.
+    pub(crate) fn to_show(&self, brick: usize) -> Option<f32> {
+        let cost = self.first[brick] + self.second[brick].max(0.0);
+        (self.first[brick] >= 0.0).then_some(cost)
+    }
+
+    /// What it costs to sample a brick at level 2, where that is a step of its own.
+    pub(crate) fn to_coarsen(&self, brick: usize) -> Option<f32> {
+        (self.first[brick] >= 0.0 && self.second[brick] >= 0.0).then_some(self.first[brick])
+    }
 }
 
 /// What is added to the upper bound of a brick in which every sample meets a particle.
@@ -44,11 +64,14 @@ mod tests {
     use crate::stages::layout::check_layout;
     use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 
+    const OFFERS_WGSL: &str = include_str!("offers.wgsl");
+
     #[test]
     fn entries_lie_as_the_shader_expects() {
-        let source = [FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL, HULL_WGSL].concat();
+        let source = [FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL, HULL_WGSL, OFFERS_WGSL].concat();
         check_layout!(&source, "CellEntry", CellEntry, values, slot, class_index, sampled, coarse);
         check_layout!(&source, "BundleEntry", BundleEntry, end_layer, charged);
-        check_layout!(&source, "ColumnValues", ColumnValues, low, high, lateral);
+        check_layout!(&source, "ColumnValues", ColumnValues, low, high);
+        check_layout!(&source, "Offers", Offers, first, second);
     }
 }

@@ -2,7 +2,12 @@
 //!
 //! At full sampling a workgroup takes a bundle through its cells. Adaptively, the cells that are to be
 //! sampled are work of their own, independent of each other, so that a workgroup does one thing: it
-//! samples a cell as a whole, or some of its bricks. Then the cells of a bundle are put together.
+//! samples a cell as a whole, or some of its bricks, or more coarsely along the rays. Then the cells of a
+//! bundle are put together.
+
+mod crowds;
+
+pub(crate) use crowds::{CROWD, Crowds, portions};
 
 use super::adapt::Adapt;
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
@@ -10,16 +15,22 @@ use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
+use crate::sampling::Bound;
+use crate::scene::Scene;
 
+const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
 const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
 const WORK_WGSL: &str = include_str!("work.wgsl");
 
 pub(crate) struct Cast {
     /// One a kernel.
+    portions: Vec<Pipeline>,
     full: Vec<Pipeline>,
     wholes: Vec<Pipeline>,
     parts: Vec<Pipeline>,
+    coarse: Vec<Pipeline>,
     composite: Pipeline,
+    pub crowds: Crowds,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
     /// Colour and opacity of each ray in a sampled cell, 64 a cell.
@@ -29,7 +40,7 @@ pub(crate) struct Cast {
 /// How much of the cells of a submission `adapt` left to be sampled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
-    /// Cells to be sampled as a whole, and in parts.
+    /// Cells to be sampled as a whole, and in parts or at a coarser level.
     pub wholes: u64,
     pub parts: u64,
 }
@@ -59,16 +70,30 @@ impl Cast {
             Kernel::ALL.iter().map(|&kernel| pipeline(kernel, entry_point, sources, bindings)).collect()
         };
         Cast {
-            full: pipelines("cast_rays", &[SAMPLES_WGSL, include_str!("full.wgsl")], &[Write]),
+            portions: pipelines(
+                "sum_portions",
+                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
+                &[Read, Write],
+            ),
+            full: pipelines(
+                "cast_rays",
+                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("full.wgsl")],
+                &[Read, Write, Write],
+            ),
             wholes: pipelines(
                 "sample_wholes",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             parts: pipelines(
                 "sample_parts",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
+            ),
+            coarse: pipelines(
+                "sample_coarsely",
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("coarse.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             composite: pipeline(
                 Kernel::default(),
@@ -76,6 +101,7 @@ impl Cast {
                 &[HULL_WGSL, include_str!("composite.wgsl")],
                 &[Write, Read, Read, Read, Read, Read],
             ),
+            crowds: Crowds::new(gpu),
             pixels: Buffer::storage(gpu, "pixels", 16),
             segments: Buffer::storage(gpu, "segments of rays", 16),
         }
@@ -91,6 +117,20 @@ impl Cast {
         self.segments.reserve(gpu, (work.wholes + work.parts) * 64)
     }
 
+    /// Records the sums over `portions` portions of crowded cells. `shared`: resources for
+    /// [`BUNDLE_BINDINGS`], whose turns are portions here.
+    pub(crate) fn record_portions(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        kernel: Kernel,
+        shared: &[wgpu::BindingResource],
+        portions: u64,
+    ) {
+        let resources = with(shared, &self.crowds.buffers());
+        self.portions[kernel.code() as usize].dispatch(gpu, pass, &resources, portions);
+    }
+
     /// Records full sampling of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
     pub(crate) fn record_full(
         &self,
@@ -100,7 +140,8 @@ impl Cast {
         shared: &[wgpu::BindingResource],
         bundles: u64,
     ) {
-        let resources = with(shared, &[&self.pixels]);
+        let [portions, sums] = self.crowds.buffers();
+        let resources = with(shared, &[portions, sums, &self.pixels]);
         self.full[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
     }
 
@@ -110,20 +151,26 @@ impl Cast {
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
-        kernel: Kernel,
+        scene: &Scene,
         shared: &[wgpu::BindingResource],
         adapt: &Adapt,
         work: Work,
         bundles: u64,
     ) {
-        let kernel = kernel.code() as usize;
+        let kernel = scene.kernel.code() as usize;
+        // What is not sampled as a whole is bricks, or all of a cell at a coarser level.
+        let parts = match scene.sampling.bound {
+            Bound::Difference => &self.parts,
+            Bound::Paper => &self.coarse,
+        };
         let (segments, values) = (&self.segments, &adapt.cell_values);
+        let [portions, sums] = self.crowds.buffers();
         let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
-            let own = [segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.charges];
+            let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
-        sample(&self.parts[kernel], pass, &adapt.parts, work.parts);
+        sample(&parts[kernel], pass, &adapt.parts, work.parts);
         let cells = with(
             shared,
             &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],
@@ -132,7 +179,7 @@ impl Cast {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes() + self.segments.bytes()
+        self.pixels.bytes() + self.segments.bytes() + self.crowds.bytes()
     }
 }
 

@@ -35,7 +35,9 @@ pub(crate) struct FrameUniform {
     pub far_offset: f32,
     pub padding: f32,
     pub sample_offset: [f32; CELL_SLICES as usize],
+    pub coarse_offset: [f32; 4],
     pub slab_depth: [f32; CELL_SLICES as usize],
+    pub slab_edge: [f32; CELL_SLICES as usize + 4],
 }
 
 impl FrameUniform {
@@ -71,9 +73,13 @@ impl FrameUniform {
             far_offset: ((camera.far - pivot_depth) / unit) as f32,
             padding: 0.0,
             sample_offset: std::array::from_fn(|k| (from_middle(k as f64 + 0.5) * step).exp_m1() as f32),
+            coarse_offset: std::array::from_fn(|k| {
+                (from_middle(4.0 * k as f64 + 2.0) * step).exp_m1() as f32
+            }),
             slab_depth: std::array::from_fn(|k| {
                 ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
             }),
+            slab_edge: std::array::from_fn(|k| (from_middle(k as f64) * step).exp_m1() as f32),
         }
     }
 }
@@ -108,10 +114,11 @@ pub(crate) struct TileUniform {
     pub first_layer: u32,
     pub layers: u32,
     pub pair_capacity: u32,
-    pub padding: u32,
+    pub portions: u32,
 }
 
 impl TileUniform {
+    /// For a tile without crowded cells, as far as is known.
     pub(crate) fn new(tile: &Tile, pair_capacity: u64) -> TileUniform {
         TileUniform {
             first: tile.first,
@@ -119,7 +126,7 @@ impl TileUniform {
             first_layer: tile.first_layer,
             layers: tile.layers,
             pair_capacity: u32::try_from(pair_capacity).unwrap_or(u32::MAX),
-            padding: 0,
+            portions: 0,
         }
     }
 }
@@ -154,7 +161,9 @@ mod tests {
             far_offset,
             padding,
             sample_offset,
-            slab_depth
+            coarse_offset,
+            slab_depth,
+            slab_edge
         );
         check_layout!(
             FRAME_WGSL,
@@ -165,7 +174,7 @@ mod tests {
             first_layer,
             layers,
             pair_capacity,
-            padding
+            portions
         );
     }
 }

@@ -28,8 +28,13 @@ struct Frame {
     padding: f32,
     // Depth of the cell's 16 samples relative to its middle, in units of the middle's depth.
     sample_offset: array<vec4<f32>, 4>,
+    // Depth of its four samples of level 2, in the same way.
+    coarse_offset: vec4<f32>,
     // Depth of the cell's 16 slabs, in units of the depth of the cell's middle.
     slab_depth: array<vec4<f32>, 4>,
+    // Depth of the 17 edges of these slabs, and of three more behind, relative to the middle like the
+    // samples: samples of coarser levels lie on edges.
+    slab_edge: array<vec4<f32>, 5>,
 }
 
 // A box of cells that is built and cast at once.
@@ -42,11 +47,14 @@ struct Tile {
     layers: u32,
     // How many references the pair buffer holds.
     pair_capacity: u32,
-    padding: u32,
+    // How many portions its crowded cells make.
+    portions: u32,
 }
 
 const BUNDLE_SIDE: u32 = 8u;
 const CELL_SLICES: f32 = 16.0;
+// A cell with more references is crowded: it is summed ahead, in portions of this many (cast/crowds.wgsl).
+const CROWD: u32 = 2048u;
 // Dispatches run over at most this many workgroups in x, and go on in y.
 const ROW_OF_WORKGROUPS: u32 = 32768u;
 
