@@ -1,7 +1,7 @@
 //! The inspector: the cells behind one pixel, as a plot and as a table.
 
 use egui::{Align, Layout, Pos2, RichText, Ui, pos2, vec2};
-use renderer::{CellClass, CellDetail};
+use renderer::{Bound, CellClass, CellDetail};
 
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::probe::Probed;
@@ -114,13 +114,15 @@ fn facts(ui: &mut Ui, probed: &Probed) {
         bundle.layers,
         widgets::count(particles),
     );
-    let second = match bundle.budget {
-        None => "Sampled in full: nothing is charged to the budget".to_owned(),
-        Some(budget) => format!(
-            "Charged to the rays of this pixel: {} of {}",
-            plain(f64::from(bundle.charged[probed.column()])),
-            plain(f64::from(budget)),
-        ),
+    let charged = plain(f64::from(bundle.charged[probed.column()]));
+    let second = match (bundle.budget.map(|budget| plain(f64::from(budget))), bundle.bound) {
+        (None, _) => "Sampled in full: nothing is charged to the budget".to_owned(),
+        (Some(budget), Bound::Difference) => {
+            format!("Charged to the rays of this pixel: {charged} of {budget}")
+        }
+        (Some(budget), Bound::Paper) => {
+            format!("Charged to the rays of this bundle, by their interval as a whole: {charged} of {budget}")
+        }
     };
     for text in [first, second] {
         ui.label(RichText::new(text).small().color(theme::MUTED));
