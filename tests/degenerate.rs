@@ -115,6 +115,65 @@ fn radii_over_six_decades() {
     assert_alike([equal, scene("volumes that go with the radii", particles)]);
 }
 
+/// The plain scene behind `count` clear particles, all of whose depths are between 1.2 and 2.1.
+fn veiled(count: usize, rate: f64) -> [Scene; 2] {
+    let mut random = Random::new(36);
+    let mut bare = with_camera("bare", |camera| camera.fov_y_degrees = 10.0);
+    (bare.view.image.width, bare.view.image.height) = (8, 8);
+    bare.view.sampling.rate = rate;
+    bare.view.transfer.points = vec![grey(0.0, 0.0, 0.0), grey(0.1, 0.0, 0.0), grey(1.0, 0.8, 0.6)];
+    let mut veiled = bare.clone();
+    veiled.name = format!("behind {count} clear particles, at rate {rate}");
+    veiled.particles.extend((0..count).map(|_| {
+        let across = 0.1 * random.in_cube();
+        particle(DVec3::new(across.x, across.y, random.between(1.9, 2.8)), 0.1, 0.0)
+    }));
+    [bare, veiled]
+}
+
+/// A software adapter makes 65,535 rounds of loops for a ray and then stops without a word.
+#[test]
+fn more_particles_along_a_ray_than_an_adapter_has_rounds() {
+    // In one cell, and in many.
+    for [bare, mut veiled] in [veiled(70_000, 0.3), veiled(8_000, 32.0)] {
+        let bare = picture(&bare);
+        assert!(bare.pixels.iter().any(|pixel| pixel[3] > 0.3), "something lies behind the veil");
+        for tolerance in [None, Some(1e-3)] {
+            veiled.view.sampling.tolerance = tolerance;
+            let comparison = compare(&bare, &picture(&veiled));
+            let limit = tolerance.unwrap_or(1e-5);
+            assert!(comparison.max <= limit, "{}, tolerance {tolerance:?}: {comparison}", veiled.name);
+        }
+    }
+}
+
+/// Where all are at one place, the quantity is their mean: none may be left out.
+#[test]
+fn a_hundred_thousand_at_one_point() {
+    let place = DVec3::new(0.25, 0.5, -0.75);
+    let heap = (0..100_000).map(|i| particle(place, 0.4, 1e-5 * f64::from(i))).collect();
+    let mut heap = scene("100,000 at one point", heap);
+    let mean = picture(&scene("their mean", vec![particle(place, 0.4, 0.499_995)]));
+    for tolerance in [None, Some(1e-3)] {
+        heap.view.sampling.tolerance = tolerance;
+        let comparison = compare(&mean, &picture(&heap));
+        assert!(comparison.max <= 2e-5, "tolerance {tolerance:?}: {comparison}");
+    }
+}
+
+#[test]
+fn two_hundred_thousand_in_a_bundle() {
+    let mut random = Random::new(43);
+    let field = |x: DVec3| 0.5 + 0.5 * (2.0 * x.x + 1.5 * x.y - x.z).sin();
+    let particles = (0..200_000).map(|_| random.in_cube()).map(|x| particle(x, 0.05, field(x))).collect();
+    let mut crowd = Scene { name: "200,000 in 8x8 pixels".to_owned(), particles, view: plain_view(8, 8) };
+    assert_alike([crowd.clone()]);
+    let full = picture(&crowd);
+    crowd.view.sampling.tolerance = Some(1e-2);
+    let comparison = compare(&full, &picture(&crowd));
+    assert!(comparison.max < 1e-2, "{comparison}");
+}
+
 #[test]
 fn unsound_particles_are_left_out_and_counted() {
     let good = scenes::plain(35, 33, 21);

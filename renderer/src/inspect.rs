@@ -13,7 +13,7 @@ pub struct GridCell {
     pub bundle: [u32; 2],
     /// Number of the cell along the ray, 16 slices each.
     pub layer: u32,
-    /// Indices of its particles in the set, in no particular order.
+    /// Indices of its particles in the set, in an order that their places decide.
     pub particles: Vec<u32>,
 }
 

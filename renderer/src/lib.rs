@@ -33,6 +33,7 @@
 #[doc(hidden)]
 pub mod bench;
 mod camera;
+mod crowds;
 mod error;
 mod gpu;
 mod inspect;

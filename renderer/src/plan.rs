@@ -22,11 +22,15 @@ pub(crate) struct TileLimits {
     pub cells: u64,
     /// Cells with particles in them, of a tile that is analysed.
     pub filled_cells: u64,
+    /// Portions of crowded cells.
+    pub portions: u64,
     pub bundles: u64,
 }
 
 /// Bytes of a bundle's 64 pixels.
 const BUNDLE_BYTES: u64 = 64 * 16;
+/// Bytes of the sums over a portion: two for each sample of a cell.
+const PORTION_BYTES: u64 = 64 * 16 * 8;
 /// Bytes of a particle in the widest of its arrays, and in all of them.
 const PARTICLE_STRIDE: u64 = 16;
 const PARTICLE_BYTES: u64 = 56;
@@ -53,6 +57,7 @@ impl TileLimits {
             // The upper levels of the prefix sum need a little more than one in two thousand.
             cells: (words - words / 1024).min(share / CELL_STRIDE).max(1),
             filled_cells: (binding / FILLED_STRIDE).min(quarter / FILLED_BYTES).max(1),
+            portions: share / PORTION_BYTES,
             bundles: (share / BUNDLE_BYTES).max(1),
         }
     }
@@ -120,6 +125,7 @@ mod tests {
         pairs: 1 << 40,
         cells: 1 << 40,
         filled_cells: 1 << 40,
+        portions: 1 << 40,
         bundles: 1 << 40,
     };
 

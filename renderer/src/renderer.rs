@@ -15,6 +15,7 @@ use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
 use crate::stages::cast::Cast;
 use crate::stages::grid::Grid;
+use crate::stages::order::Order;
 use crate::stages::project::Project;
 use crate::stages::shared::{Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth};
 use crate::stats::{Milliseconds, Stats};
@@ -44,11 +45,13 @@ pub struct Renderer {
     pub(crate) transfer: TransferTables,
     pub(crate) project: Project,
     pub(crate) grid: Grid,
+    pub(crate) order: Order,
     pub(crate) bundles: Bundles,
     pub(crate) adapt: Adapt,
     pub(crate) cast: Cast,
-    /// Of full and of adaptive sampling.
+    /// Of full and of adaptive sampling, and of the sums over crowds.
     pub(crate) pace: [Pace; 2],
+    pub(crate) crowd_pace: Pace,
     /// What the device holds: projected particles, and the grid of the only tile.
     pub(crate) projected: Option<Geometry>,
     pub(crate) sorted: Option<(Geometry, GridSize)>,
@@ -103,10 +106,12 @@ impl Renderer {
             transfer: TransferTables::new(&gpu),
             project: Project::new(&gpu),
             grid: Grid::new(&gpu),
+            order: Order::new(&gpu),
             bundles: Bundles::new(&gpu),
             adapt: Adapt::new(&gpu),
             cast: Cast::new(&gpu, count_inside),
             pace: [Pace::new(gpu.is_software()); 2],
+            crowd_pace: Pace::new(gpu.is_software()),
             projected: None,
             sorted: None,
             analysed: None,
@@ -176,6 +181,7 @@ impl Renderer {
             milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
         picture.stats.gpu_bytes = self.store.bytes()
             + self.grid.bytes()
+            + self.order.bytes()
             + self.bundles.bytes()
             + self.adapt.bytes()
             + self.cast.bytes();

@@ -61,7 +61,7 @@ impl Stats {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CellClasses {
-    /// Sampled as a whole.
+    /// Sampled wherever anything is to be seen that is not exactly alike.
     pub full: u64,
     /// Sampled in some bricks, and shown by one colour each in the others.
     pub mixed: u64,

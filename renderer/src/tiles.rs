@@ -12,6 +12,7 @@ use crate::sampling::Bound;
 use crate::scene::Scene;
 use crate::selection;
 use crate::stages::cast::Work;
+use crate::stages::grid::Totals;
 use crate::stages::shared::{FrameUniform, TileUniform, pitch};
 use crate::stats::Milliseconds;
 
@@ -140,6 +141,7 @@ impl Renderer {
         self.grid.pairs.reserve(&self.gpu, (particles * PAIRS_PER_PARTICLE).clamp(1, limit))?;
         loop {
             let capacity = self.grid.pairs.capacity().min(limit);
+            self.order.reserve(&self.gpu, capacity)?;
             self.tile.write(&self.gpu, &[TileUniform::new(tile, capacity)])?;
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             if self.projected.as_ref() != Some(&job.geometry) {
@@ -149,14 +151,22 @@ impl Renderer {
             }
             let uniforms = [&self.frame, &self.tile];
             self.grid.record(&self.gpu, &mut encoder, &self.timing, uniforms, &self.store, tile)?;
+            self.timing.pass(&mut encoder, "grid", |pass| {
+                let bundles = tile.bundles();
+                self.order.record_batches(&self.gpu, pass, &self.tile, &self.store, &self.grid, bundles);
+            });
             let totals = self.grid.totals.read_back(&self.gpu, &mut encoder, 1);
             self.submit(encoder, times)?;
-            let totals: Vec<u32> = totals.take(&self.gpu)?;
+            let totals = totals.take::<Totals>(&self.gpu)?[0];
             self.projected = Some(job.geometry.clone());
 
-            let needed = u64::from(totals[0]);
+            let needed = u64::from(totals.pairs);
             if needed <= capacity {
-                return Ok(Ok(GridSize { pairs: needed, cells: u64::from(totals[1]) }));
+                self.order_left_cells(totals, times)?;
+                if let Some(too_large) = self.find_crowds(job, tile, totals)? {
+                    return Ok(Err(too_large));
+                }
+                return Ok(Ok(GridSize { pairs: needed, cells: totals.cells.into() }));
             }
             if needed > limit {
                 return Ok(Err(TooLarge { what: "references to particles", needed, limit }));
@@ -164,6 +174,19 @@ impl Renderer {
             // Some room to spare: the next camera may need a little more.
             self.grid.pairs.reserve(&self.gpu, (needed + needed / 8).min(limit))?;
         }
+    }
+
+    /// Orders the references of those cells that the batches left.
+    fn order_left_cells(&mut self, totals: Totals, times: &mut Milliseconds) -> Result<(), RenderError> {
+        if totals.left_cells == 0 {
+            return Ok(());
+        }
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.timing.pass(&mut encoder, "grid", |pass| {
+            let cells = totals.left_cells.into();
+            self.order.record_left(&self.gpu, pass, &self.tile, &self.store, &self.grid, cells);
+        });
+        self.submit(encoder, times)
     }
 
     /// Casts the rays of `tile`, sampled as its budget allows, and puts its pixels into the picture.
@@ -183,6 +206,7 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.bundles.clear_counters(&mut encoder);
         self.gpu.queue.submit([encoder.finish()]);
+        self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
         // Samples of a cell take twice the place of its bounds.
         let most = match budget {
@@ -266,12 +290,12 @@ impl Renderer {
     }
 
     /// Resources that all stages with a workgroup a bundle or a cell share.
-    fn shared_bindings(&self) -> Vec<wgpu::BindingResource<'_>> {
+    pub(crate) fn shared_bindings(&self) -> Vec<wgpu::BindingResource<'_>> {
         self.bundles.bindings([&self.frame, &self.tile], &self.store, &self.grid, &self.transfer)
     }
 
     /// Submits, waits, and adds the time of each stage.
-    fn submit(
+    pub(crate) fn submit(
         &mut self,
         mut encoder: wgpu::CommandEncoder,
         times: &mut Milliseconds,

@@ -2,6 +2,8 @@
 //!
 //! By a counting sort; `benches/grid_sort` measures it against the paper's sort of pairs.
 
+use bytemuck::{Pod, Zeroable};
+
 use super::scan::Scan;
 use super::shared::{FRAME_WGSL, ParticleStore};
 use crate::error::RenderError;
@@ -13,13 +15,27 @@ pub struct Grid {
     counting: Pipeline,
     scattering: Pipeline,
     sums: Scan,
-    ordering: Pipeline,
     /// Where the references of each cell end, cells along a ray side by side.
     pub cells: Buffer,
-    /// Particles of each cell, in an order that only their places decide, but for cells of more than 512.
+    /// Particles of each cell, in the order in which the device came by them; `order` has another.
     pub pairs: Buffer,
-    /// References in all, cells that hold any.
+    /// [`Totals`].
     pub totals: Buffer,
+}
+
+/// What is counted while the grid of a tile is built and ordered.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Totals {
+    /// References in all, cells that hold any.
+    pub pairs: u32,
+    pub cells: u32,
+    /// Cells that are left to be ordered one by one, and references of the largest of them.
+    pub left_cells: u32,
+    pub largest_cell: u32,
+    /// Most references of a bundle in cells that are no crowds.
+    pub busiest_bundle: u32,
+    padding: [u32; 3],
 }
 
 impl Grid {
@@ -41,19 +57,9 @@ impl Grid {
             counting: pipeline("count"),
             scattering: pipeline("scatter"),
             sums: Scan::new(gpu),
-            ordering: Pipeline::new(
-                gpu,
-                &PipelineDescription {
-                    label: "order",
-                    sources: &[FRAME_WGSL, include_str!("order.wgsl")],
-                    entry_point: "order",
-                    constants: &[],
-                    bindings: &[Uniform, Read, Read, Write],
-                },
-            ),
             cells: Buffer::storage(gpu, "cells", 4),
             pairs: Buffer::storage(gpu, "cell-particle pairs", 4),
-            totals: Buffer::storage(gpu, "grid totals", 16),
+            totals: Buffer::storage(gpu, "grid totals", size_of::<Totals>() as u64),
         }
     }
 
@@ -80,7 +86,6 @@ impl Grid {
             self.count(gpu, pass, uniforms, store);
             result = self.scan(gpu, pass, tile.cells());
             self.scatter(gpu, pass, uniforms, store);
-            self.order(gpu, pass, uniforms, store, tile.bundles());
         });
         result
     }
@@ -110,19 +115,6 @@ impl Grid {
         store: &ParticleStore,
     ) {
         self.walk(&self.scattering, gpu, pass, uniforms, store);
-    }
-
-    /// References of each cell into an order of their own.
-    fn order(
-        &self,
-        gpu: &Gpu,
-        pass: &mut wgpu::ComputePass,
-        [_, tile]: [&Buffer; 2],
-        store: &ParticleStore,
-        bundles: u64,
-    ) {
-        let buffers = [tile, &store.projected, &self.cells, &self.pairs].map(Buffer::binding);
-        self.ordering.dispatch(gpu, pass, &buffers, bundles);
     }
 
     fn walk(

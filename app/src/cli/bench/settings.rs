@@ -22,8 +22,16 @@ pub struct Ablation {
 }
 
 /// A line for each: its name, and what it changes in the view.
-const ABLATIONS: [Ablation; 3] = [
-    Ablation { name: "no super-pixels", change: |view| view.sampling.super_pixels = false },
+const ABLATIONS: [Ablation; 5] = [
+    Ablation { name: "only z", change: |view| view.sampling.super_pixels = false },
+    Ablation {
+        name: "only z relaxed",
+        change: |view| (view.sampling.super_pixels, view.sampling.relaxation) = (false, 1.0),
+    },
+    Ablation {
+        name: "skipping only",
+        change: |view| (view.sampling.super_pixels, view.sampling.z_adaptive) = (false, false),
+    },
     Ablation { name: "paper's bound", change: |view| by_the_paper(view, 0.0) },
     Ablation { name: "paper's bound relaxed", change: |view| by_the_paper(view, 1.0) },
 ];

@@ -19,8 +19,13 @@ const MOST_UNITS: u32 = 32u;
 // Bricks of the group's cells to be sampled at every slice, and at level 2: two words each (CellEntry).
 var<workgroup> sampled_masks: array<atomic<u32>, 8>;
 var<workgroup> coarse_masks: array<atomic<u32>, 8>;
-// Columns of a cell in which some brick is shown unsampled.
+// Of each cell: SEEN, PAID.
 var<workgroup> shown: array<atomic<u32>, GROUP_CELLS>;
+
+// Some column is seen; some brick is not sampled in full, at a cost: bricks with nothing in them are not
+// sampled either.
+const SEEN: u32 = 1u;
+const PAID: u32 = 2u;
 
 fn clear_masks(lane: u32) {
     if lane < 8u {
@@ -41,32 +46,34 @@ fn bits_of(column: u32, chosen: vec4<bool>) -> vec2<u32> {
     );
 }
 
-fn note_column(number: u32, column: u32, fine: vec4<bool>, coarse: vec4<bool>, seen: bool) {
+// `paid`: bricks whose offer has a cost.
+fn note_column(
+    number: u32, column: u32, fine: vec4<bool>, coarse: vec4<bool>, seen: bool, paid: vec4<bool>,
+) {
     let fine_bits = bits_of(column, fine);
     let coarse_bits = bits_of(column, coarse);
     atomicOr(&sampled_masks[2u * number], fine_bits.x);
     atomicOr(&sampled_masks[2u * number + 1u], fine_bits.y);
     atomicOr(&coarse_masks[2u * number], coarse_bits.x);
     atomicOr(&coarse_masks[2u * number + 1u], coarse_bits.y);
-    if seen && !all(fine | coarse) {
-        atomicAdd(&shown[number], 1u);
-    }
+    let some_paid = any(paid & !fine);
+    atomicOr(&shown[number], select(0u, SEEN, seen) | select(0u, PAID, some_paid));
 }
 
 // Notes a cell's masks and class, and puts it on the list of those to be sampled as a whole or in parts.
 fn file_cell(cell: u32, number: u32) {
     let fine = vec2(atomicLoad(&sampled_masks[2u * number]), atomicLoad(&sampled_masks[2u * number + 1u]));
     let coarse = vec2(atomicLoad(&coarse_masks[2u * number]), atomicLoad(&coarse_masks[2u * number + 1u]));
-    let shows_some = atomicLoad(&shown[number]) > 0u;
+    let flags = atomicLoad(&shown[number]);
     let bricks = countOneBits(fine.x) + countOneBits(fine.y);
     let units = bricks + countOneBits(columns_in(coarse));
-    let class_index = class_of_cell(bricks, units, shows_some);
+    let class_index = class_of_cell(bricks, units, flags);
     atomicAdd(&counters[class_index], 1u);
     cell_values[cell].class_index = class_index;
     cell_values[cell].sampled = fine;
     cell_values[cell].coarse = coarse;
     if units == 0u {
-        sampled[cell] = select(0u, 1u, shows_some);
+        sampled[cell] = flags & SEEN;
         return;
     }
     let place = atomicAdd(&work.sampled, 1u);
@@ -78,12 +85,12 @@ fn file_cell(cell: u32, number: u32) {
     }
 }
 
-fn class_of_cell(bricks: u32, units: u32, shows_some: bool) -> u32 {
+fn class_of_cell(bricks: u32, units: u32, flags: u32) -> u32 {
     if units == 0u {
-        return select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, shows_some);
+        return select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, (flags & SEEN) > 0u);
     }
     if bricks == 0u {
         return CELLS_Z_ADAPTIVE + 1u;
     }
-    return select(CELLS_FULL, CELLS_MIXED, shows_some || units > bricks);
+    return select(CELLS_FULL, CELLS_MIXED, (flags & PAID) > 0u);
 }

@@ -173,9 +173,9 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
             used += more;
         }
         let affordable = with_mine * (1.0 + ROUNDING) <= plan.left;
-        let fine = declined(plan, mine.first, classes.first, affordable);
+        let fine = vec4(is_crowd(cell)) | declined(plan, mine.first, classes.first, affordable);
         let coarse = !fine & declined(plan, mine.second, classes.second, affordable);
-        note_column(place.number, place.column, fine, coarse, seen);
+        note_column(place.number, place.column, fine, coarse, seen, mine.first > vec4(0.0));
         workgroupBarrier();
         if place.column == 0u && cell.exists {
             file_cell(cell.cell, place.number);

@@ -23,6 +23,11 @@ struct Cell {
     end: u32,
 }
 
+// Nothing is known of a crowded cell: it may let all light through, and is sampled as a whole.
+fn is_crowd(cell: Cell) -> bool {
+    return cell.end - cell.first > CROWD;
+}
+
 // Values of the cells that are not known yet, from the quantities of their particles.
 fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> vec2<f32> {
     // The bits of floats that are not negative are in their order.
@@ -89,13 +94,14 @@ fn values_in_cell(
     let number = lane / COLUMNS;
     let leader = lane % COLUMNS == 0u;
     var entry = cell_values[cell.cell];
-    let unknown = cell.exists && entry.slot == 0u;
+    let analysed = cell.exists && !is_crowd(cell);
+    let unknown = analysed && entry.slot == 0u;
     // Read by all before it is written by one.
     let extremes = find_extremes(cell, unknown, number, lane % COLUMNS);
     if unknown {
         entry = CellEntry(extremes, 1u, 0u, vec2(0u), vec2(0u));
     }
-    let transparent = !cell.exists || is_transparent(entry.values);
+    let transparent = !analysed || is_transparent(entry.values);
     let wanted = !transparent && entry.slot == 1u;
     if lane == 0u {
         atomicStore(&most_particles, 0u);

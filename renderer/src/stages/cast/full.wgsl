@@ -1,7 +1,7 @@
 // Full sampling: a workgroup takes a bundle of 8 × 8 rays from front to back, a lane one ray.
 
 // Premultiplied linear RGB and transparency, 64 pixels a bundle.
-@group(0) @binding(12) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(14) var<storage, read_write> pixels: array<vec4<f32>>;
 
 var<workgroup> open_rays: atomic<u32>;
 

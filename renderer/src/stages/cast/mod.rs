@@ -5,6 +5,10 @@
 //! samples a cell as a whole, or some of its bricks, or more coarsely along the rays. Then the cells of a
 //! bundle are put together.
 
+mod crowds;
+
+pub(crate) use crowds::{CROWD, Crowds, portions};
+
 use super::adapt::Adapt;
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
@@ -14,16 +18,19 @@ use crate::plan::Tile;
 use crate::sampling::Bound;
 use crate::scene::Scene;
 
+const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
 const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
 const WORK_WGSL: &str = include_str!("work.wgsl");
 
 pub(crate) struct Cast {
     /// One a kernel.
+    portions: Vec<Pipeline>,
     full: Vec<Pipeline>,
     wholes: Vec<Pipeline>,
     parts: Vec<Pipeline>,
     coarse: Vec<Pipeline>,
     composite: Pipeline,
+    pub crowds: Crowds,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
     /// Colour and opacity of each ray in a sampled cell, 64 a cell.
@@ -63,16 +70,25 @@ impl Cast {
             Kernel::ALL.iter().map(|&kernel| pipeline(kernel, entry_point, sources, bindings)).collect()
         };
         Cast {
-            full: pipelines("cast_rays", &[SAMPLES_WGSL, include_str!("full.wgsl")], &[Write]),
+            portions: pipelines(
+                "sum_portions",
+                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
+                &[Read, Write],
+            ),
+            full: pipelines(
+                "cast_rays",
+                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("full.wgsl")],
+                &[Read, Write, Write],
+            ),
             wholes: pipelines(
                 "sample_wholes",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             parts: pipelines(
                 "sample_parts",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             coarse: pipelines(
                 "sample_coarsely",
@@ -85,6 +101,7 @@ impl Cast {
                 &[HULL_WGSL, include_str!("composite.wgsl")],
                 &[Write, Read, Read, Read, Read, Read],
             ),
+            crowds: Crowds::new(gpu),
             pixels: Buffer::storage(gpu, "pixels", 16),
             segments: Buffer::storage(gpu, "segments of rays", 16),
         }
@@ -100,6 +117,20 @@ impl Cast {
         self.segments.reserve(gpu, (work.wholes + work.parts) * 64)
     }
 
+    /// Records the sums over `portions` portions of crowded cells. `shared`: resources for
+    /// [`BUNDLE_BINDINGS`], whose turns are portions here.
+    pub(crate) fn record_portions(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        kernel: Kernel,
+        shared: &[wgpu::BindingResource],
+        portions: u64,
+    ) {
+        let resources = with(shared, &self.crowds.buffers());
+        self.portions[kernel.code() as usize].dispatch(gpu, pass, &resources, portions);
+    }
+
     /// Records full sampling of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
     pub(crate) fn record_full(
         &self,
@@ -109,7 +140,8 @@ impl Cast {
         shared: &[wgpu::BindingResource],
         bundles: u64,
     ) {
-        let resources = with(shared, &[&self.pixels]);
+        let [portions, sums] = self.crowds.buffers();
+        let resources = with(shared, &[portions, sums, &self.pixels]);
         self.full[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
     }
 
@@ -132,8 +164,9 @@ impl Cast {
             Bound::Paper => &self.coarse,
         };
         let (segments, values) = (&self.segments, &adapt.cell_values);
+        let [portions, sums] = self.crowds.buffers();
         let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
-            let own = [segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
+            let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
@@ -146,7 +179,7 @@ impl Cast {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes() + self.segments.bytes()
+        self.pixels.bytes() + self.segments.bytes() + self.crowds.bytes()
     }
 }
 

@@ -72,7 +72,7 @@ fn sample_bricks(
 ) {
     let depths = layer_depth[tile.first_layer + layer];
     let middle = vec3(depths.x * axis, depths.y);
-    let reference = clamp(quantities[pairs[first]], 0.0, 1.0);
+    let reference = reference_of(first);
     let units = 4u * count;
     var a = unit_of(lane, units);
     var b = unit_of(lane + LANES, units);

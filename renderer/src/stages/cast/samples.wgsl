@@ -15,6 +15,12 @@ var<workgroup> loads: array<vec2<f32>, LANES>;
 // Colour and opacity of bricks that are shown unsampled, where some are: brick b of column c is 16b + c.
 var<workgroup> middles: array<vec4<f32>, LANES>;
 
+// What the quantities of a cell are relative to: some particle's, but never an outlier's, against which
+// the others would vanish.
+fn reference_of(first: u32) -> f32 {
+    return clamp(quantities[pairs[first]], 0.0, 1.0);
+}
+
 // Brings up to 64 particles of the cell, one a lane, into shared memory.
 fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
     let particle = particle_in_cell(place, middle, depth, reference);
@@ -95,8 +101,7 @@ fn cast_cell(
     let middle = vec3(depth * axis, depths.y);
     let direction = vec3(slope, 1.0);
     let direction_squared = dot(direction, direction);
-    // Some particle's, but never an outlier's, against which the others would vanish.
-    let reference = clamp(quantities[pairs[first]], 0.0, 1.0);
+    let reference = reference_of(first);
     // Sums over particles at the ray's 16 samples. Four vectors rather than an array: an indexed
     // array would live in memory.
     var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
@@ -107,7 +112,9 @@ fn cast_cell(
     // Evaluations done, and those with a weight above zero.
     var count = vec2(0u);
 
-    for (var base = first; base < end; base += LANES) {
+    let crowd = portions_of(first, end);
+    let walk_end = select(end, first, crowd.x < crowd.y);
+    for (var base = first; base < walk_end; base += LANES) {
         if base + lane < end {
             load_particle(base + lane, lane, middle, depth, reference);
         }
@@ -131,6 +138,11 @@ fn cast_cell(
     }
     add_to_tally(0u, count.x);
     if COUNT_INSIDE { add_to_tally(2u, count.y); }
+    for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
+        let sums = portion_sums[portion * LANES + lane];
+        w0 += sums[0]; w1 += sums[1]; w2 += sums[2]; w3 += sums[3];
+        q0 += sums[4]; q1 += sums[5]; q2 += sums[6]; q3 += sums[7];
+    }
 
     let path = frame.slab_depth;
     let scale = depth * sqrt(direction_squared) * frame.path_scale;

@@ -7,14 +7,14 @@ struct Work {
 }
 
 // Colour and opacity of each ray in a sampled cell, 64 a cell.
-@group(0) @binding(12) var<storage, read_write> segments: array<vec4<f32>>;
-@group(0) @binding(13) var<storage, read> work: Work;
+@group(0) @binding(14) var<storage, read_write> segments: array<vec4<f32>>;
+@group(0) @binding(15) var<storage, read> work: Work;
 // Cell, and its place among the sampled ones.
-@group(0) @binding(14) var<storage, read> tasks: array<vec2<u32>>;
-@group(0) @binding(15) var<storage, read> cell_values: array<CellEntry>;
-@group(0) @binding(16) var<storage, read> bricks: array<ColumnValues>;
+@group(0) @binding(16) var<storage, read> tasks: array<vec2<u32>>;
+@group(0) @binding(17) var<storage, read> cell_values: array<CellEntry>;
+@group(0) @binding(18) var<storage, read> bricks: array<ColumnValues>;
 // Costs of showing or coarsely sampling a column's bricks, negative where no light comes from.
-@group(0) @binding(17) var<storage, read> offers: array<array<vec4<f32>, 2>>;
+@group(0) @binding(19) var<storage, read> offers: array<array<vec4<f32>, 2>>;
 
 // Whether a brick is in a mask of CellEntry.
 fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
@@ -23,7 +23,7 @@ fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
 
 // What stands for a brick that is not sampled.
 fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<f32> {
-    let place = (cell_values[cell].slot - 2u) * COLUMNS + column;
+    let place = (max(cell_values[cell].slot, 2u) - 2u) * COLUMNS + column;
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
     let hull = hull_of(vec2(bricks[place].low[brick_layer], bricks[place].high[brick_layer]), paths);

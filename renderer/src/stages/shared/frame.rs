@@ -114,10 +114,11 @@ pub(crate) struct TileUniform {
     pub first_layer: u32,
     pub layers: u32,
     pub pair_capacity: u32,
-    pub padding: u32,
+    pub portions: u32,
 }
 
 impl TileUniform {
+    /// For a tile without crowded cells, as far as is known.
     pub(crate) fn new(tile: &Tile, pair_capacity: u64) -> TileUniform {
         TileUniform {
             first: tile.first,
@@ -125,7 +126,7 @@ impl TileUniform {
             first_layer: tile.first_layer,
             layers: tile.layers,
             pair_capacity: u32::try_from(pair_capacity).unwrap_or(u32::MAX),
-            padding: 0,
+            portions: 0,
         }
     }
 }
@@ -173,7 +174,7 @@ mod tests {
             first_layer,
             layers,
             pair_capacity,
-            padding
+            portions
         );
     }
 }

@@ -47,11 +47,14 @@ struct Tile {
     layers: u32,
     // How many references the pair buffer holds.
     pair_capacity: u32,
-    padding: u32,
+    // How many portions its crowded cells make.
+    portions: u32,
 }
 
 const BUNDLE_SIDE: u32 = 8u;
 const CELL_SLICES: f32 = 16.0;
+// A cell with more references is crowded: it is summed ahead, in portions of this many (cast/crowds.wgsl).
+const CROWD: u32 = 2048u;
 // Dispatches run over at most this many workgroups in x, and go on in y.
 const ROW_OF_WORKGROUPS: u32 = 32768u;
 
