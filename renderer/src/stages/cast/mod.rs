@@ -92,8 +92,8 @@ impl Cast {
             ),
             coarse: pipelines(
                 "sample_coarsely",
-                &[HULL_WGSL, WORK_WGSL, SAMPLES_WGSL, include_str!("coarse.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("coarse.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             composite: pipeline(
                 Kernel::default(),

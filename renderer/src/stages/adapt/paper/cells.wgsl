@@ -63,6 +63,14 @@ fn find_place(number: u32) {
     }
 }
 
+// Nothing is known of a crowded cell: it may let all light through, and is sampled at level 0.
+fn is_crowd(cell: u32) -> bool {
+    return cells[cell] - first_of_cell(cell) > CROWD;
+}
+
+// Values of a slab of which nothing is known.
+const ANYTHING: vec2<f32> = vec2(0.0, 1.0);
+
 // Has the values of the slabs of all cells of the group in `bounds`.
 fn know_slabs(count: u32, slope: vec2<f32>, lane: u32) {
     if lane == 0u {
@@ -76,10 +84,11 @@ fn know_slabs(count: u32, slope: vec2<f32>, lane: u32) {
     for (var i = 0u; i < count; i += 1u) {
         if (missing >> i & 1u) == 1u {
             let cell = group[i];
-            look_into_cell(cell % tile.layers, first_of_cell(cell), cells[cell], slope, lane);
+            let first = first_of_cell(cell);
+            look_into_cell(cell % tile.layers, first, select(cells[cell], first, is_crowd(cell)), slope, lane);
             workgroupBarrier();
             if lane < SLABS {
-                bounds[places[i]].values[lane] = values_of_slab(lane);
+                bounds[places[i]].values[lane] = select(values_of_slab(lane), ANYTHING, is_crowd(cell));
             }
             workgroupBarrier();
         }

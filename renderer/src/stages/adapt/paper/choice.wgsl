@@ -122,7 +122,7 @@ fn choose_cells(index: u32, front: Front) -> f32 {
             note_class(cell, CELLS_TRANSPARENT, 0u);
             continue;
         }
-        let choice = choose(place, back, budget);
+        let choice = choose(place, back, select(budget, 0.0, is_crowd(cell)));
         back = behind(choice.interval, back);
         adapted |= choice.kind > 0u;
         file_cell(cell, place, choice.kind);
