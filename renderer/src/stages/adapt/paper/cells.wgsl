@@ -15,6 +15,9 @@ struct CellBounds {
 
 // A ray has ended where this share of the budget may still come through.
 const OCCLUDED: f32 = 0.0625;
+// A cell that is no more opaque than this share of the budget is left out: values of its slabs are rounded
+// outward, so that what is transparent may not be so to the last bit.
+const NEGLIGIBLE: f32 = 0.00025;
 
 // The group's cells, their places in `bounds`, and bits of those whose slabs are not known yet.
 var<workgroup> group: array<u32, GROUP_CELLS>;
@@ -27,9 +30,10 @@ var<workgroup> passed: Front;
 // What stands in front of the rest of a bundle.
 struct Front {
     interval: Interval,
-    // The layer after the last one that is seen, once the rays have ended, and how much light may come
-    // from behind it.
+    // The layer after the last one that is seen, once the rays have ended.
     end_layer: u32,
+    // By how much all that is left out may change a ray: cells with nothing to be seen, and the light from
+    // behind the end.
     hidden: f32,
 }
 
@@ -136,17 +140,25 @@ fn slack_of(level_0: Interval) -> vec4<f32> {
     return chunk.relaxation * widths(level_0);
 }
 
+fn is_left_out(level_0: Interval) -> bool {
+    return level_0.high.a <= NEGLIGIBLE * chunk.budget;
+}
+
 // Goes through the cells of the group, until the rays have ended. By one lane.
 fn pass_group(count: u32, before: Front) -> Front {
     var front = before;
     for (var i = 0u; i < count; i += 1u) {
         let level_0 = bounds[places[i]].levels[0];
+        if is_left_out(level_0) {
+            front.hidden += level_0.high.a;
+            continue;
+        }
         bounds[places[i]].front = front.interval;
         front.interval = behind(front.interval, relaxed(level_0, slack_of(level_0)));
         let open = 1.0 - front.interval.low.a;
         if open <= OCCLUDED * chunk.budget {
             front.end_layer = group[i] % tile.layers + 1u;
-            front.hidden = open;
+            front.hidden += open;
             break;
         }
     }

@@ -117,7 +117,7 @@ fn choose_cells(index: u32, front: Front) -> f32 {
             continue;
         }
         let place = cell_values[cell].slot - 2u;
-        if bounds[place].levels[0].high.a == 0.0 {
+        if is_left_out(bounds[place].levels[0]) {
             sampled[cell] = 0u;
             note_class(cell, CELLS_TRANSPARENT, 0u);
             continue;
