@@ -97,11 +97,46 @@ fn a_higher_tolerance_takes_no_more_evaluations() {
 }
 
 #[test]
-fn without_super_pixels_every_sample_is_taken() {
+fn without_super_pixels_and_levels_every_sample_is_taken() {
     let mut scene = calm(23, 57, 43);
-    scene.view.sampling.super_pixels = false;
+    (scene.view.sampling.super_pixels, scene.view.sampling.z_adaptive) = (false, false);
     let trial = try_out(&mut shared(), &scene);
-    assert_eq!(trial.full.pixels, trial.adaptive.pixels);
+    let classes = trial.adaptive.stats.cells_by_class;
+    // Bricks with nothing in them need no samples.
+    assert_eq!((classes.super_pixel, classes.z_adaptive), (0, [0; 4]));
+    assert!(trial.comparison.max < 3e-5, "{}", trial.comparison);
+    assert_eq!(trial.violation(), None);
+}
+
+#[test]
+fn with_levels_only() {
+    let mut renderer = shared();
+    let cases = (200..240).map(case).chain(calm_scenes());
+    let only_levels = cases.map(|mut scene| {
+        scene.view.sampling.super_pixels = false;
+        scene
+    });
+    let mut coarse = 0;
+    for scene in only_levels {
+        let trial = try_out(&mut renderer, &scene);
+        assert_eq!(trial.violation(), None);
+        let classes = trial.adaptive.stats.cells_by_class;
+        assert_eq!(classes.super_pixel, 0, "{}", scene.name);
+        coarse += classes.z_adaptive[1];
+    }
+    assert!(coarse > 100, "{coarse} cells were sampled at level 2");
+}
+
+#[test]
+fn relaxation_samples_more_coarsely() {
+    let mut scene = calm(24, 57, 43);
+    scene.view.sampling.super_pixels = false;
+    let mut renderer = shared();
+    let done = [0.0, 0.5, 1.0].map(|relaxation| {
+        scene.view.sampling.relaxation = relaxation;
+        try_out(&mut renderer, &scene).adaptive.stats.evaluations.done
+    });
+    assert!(done[0] > done[1] && done[1] > done[2], "{done:?} evaluations");
 }
 
 #[test]

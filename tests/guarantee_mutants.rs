@@ -13,7 +13,7 @@ struct Mutant {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Mutant; 14] = [
+const MUTANTS: [Mutant; 16] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
         edits: &[("0.5 * reach * reach * jet.curvature + 1e-6 * jet.bend", "vec4(0.0)")],
@@ -51,15 +51,15 @@ const MUTANTS: [Mutant; 14] = [
     },
     Mutant {
         what: "half of the charge",
-        edits: &[("select(charge, 0.0, thick == 0.0)", "select(0.5 * charge, 0.0, thick == 0.0)")],
+        edits: &[("select(0.0, charge, seen)", "select(0.0, 0.5 * charge, seen)")],
     },
     Mutant {
         what: "the lower bound of the transparency in place of the upper",
-        edits: &[("thick == 0.0), 1.0 - thin)", "thick == 0.0), 1.0 - thick)")],
+        edits: &[("width, seen), 1.0 - thin)", "width, seen), 1.0 - thick)")],
     },
     Mutant {
         what: "no light comes through from behind",
-        edits: &[("thick == 0.0), 1.0 - thin)", "thick == 0.0), 0.0)")],
+        edits: &[("width, seen), 1.0 - thin)", "width, seen), 0.0)")],
     },
     Mutant {
         what: "the largest charge in place of the sum",
@@ -67,11 +67,23 @@ const MUTANTS: [Mutant; 14] = [
     },
     Mutant { what: "half as much again as the budget", edits: &[("chunk.budget", "(1.5 * chunk.budget)")] },
     Mutant {
+        what: "level 2 is free of charge, however wide the hull",
+        edits: &[
+            ("hull.width * (1.0 - chunk.relaxation)", "hull.width * 0.0"),
+            ("hull.width < vec4(chunk.budget)", "hull.width < vec4(2.0)"),
+        ],
+    },
+    Mutant {
+        what: "level 2 is sampled at the front of a brick",
+        edits: &[
+            ("layer == LEVEL_2);", "false);"),
+            ("add_samples(frame.coarse_offset,", "add_samples(at[0],"),
+        ],
+    },
+    Mutant {
         what: "columns end early, free of charge",
         edits: &[
-            ("front <= OCCLUDED * chunk.budget", "front <= 0.25"),
-            ("let ended = before <= OCCLUDED * chunk.budget", "let ended = before <= 0.25"),
-            ("front > OCCLUDED * chunk.budget", "front > 0.25"),
+            ("return light <= OCCLUDED * chunk.budget;", "return light <= 0.25;"),
             ("let budget = chunk.budget - reserve;", "let budget = chunk.budget;"),
         ],
     },
@@ -79,10 +91,16 @@ const MUTANTS: [Mutant; 14] = [
 
 /// What every mutant is tried on, with one kernel: pipelines are made when they are first used.
 fn cases() -> impl Iterator<Item = Scene> {
-    hard_cases().into_iter().chain((0..60).map(case)).map(|mut scene| {
+    hard_cases().into_iter().chain((0..60).map(case)).chain((60..90).map(only_levels)).map(|mut scene| {
         scene.view.particles.kernel = Kernel::Poly6;
         scene
     })
+}
+
+fn only_levels(seed: u64) -> Scene {
+    let mut scene = case(seed);
+    scene.view.sampling.super_pixels = false;
+    scene
 }
 
 fn edited(edits: &[(&str, &str)]) -> GpuOptions {

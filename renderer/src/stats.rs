@@ -46,12 +46,14 @@ impl Stats {
             classes.full += cells;
             return;
         }
-        let Counters { full, mixed, super_pixel, transparent, .. } = *counters;
+        let Counters { full, mixed, super_pixel, transparent, z_adaptive, .. } = *counters;
         classes.full += full;
         classes.mixed += mixed;
         classes.super_pixel += super_pixel;
         classes.transparent += transparent;
-        classes.occluded += cells.saturating_sub(full + mixed + super_pixel + transparent);
+        classes.z_adaptive.iter_mut().zip(z_adaptive).for_each(|(sum, count)| *sum += count);
+        let looked_at = full + mixed + super_pixel + transparent + z_adaptive.iter().sum::<u64>();
+        classes.occluded += cells.saturating_sub(looked_at);
     }
 }
 
@@ -59,7 +61,7 @@ impl Stats {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CellClasses {
-    /// Sampled as a whole.
+    /// Sampled wherever anything is to be seen that is not exactly alike.
     pub full: u64,
     /// Sampled in some bricks, and shown by one colour each in the others.
     pub mixed: u64,

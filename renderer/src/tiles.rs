@@ -217,7 +217,7 @@ impl Renderer {
             let begin = Instant::now();
             let pace = self.pace[usize::from(budget.is_some())].bundles();
             let end = bundles.min(first + pace.min(most));
-            self.bundles.write_chunk(&self.gpu, first..end, bundles, budget.unwrap_or(0.0))?;
+            self.bundles.write_chunk(&self.gpu, first..end, bundles, &job.scene.sampling)?;
             let times = &mut picture.stats.milliseconds;
             match budget {
                 None => self.cast_fully(job.scene.kernel, end - first, times)?,

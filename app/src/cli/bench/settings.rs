@@ -22,8 +22,17 @@ pub struct Ablation {
 }
 
 /// A line for each: its name, and what it changes in the view.
-const ABLATIONS: [Ablation; 1] =
-    [Ablation { name: "no super-pixels", change: |view| view.sampling.super_pixels = false }];
+const ABLATIONS: [Ablation; 3] = [
+    Ablation { name: "only z", change: |view| view.sampling.super_pixels = false },
+    Ablation {
+        name: "skipping only",
+        change: |view| (view.sampling.super_pixels, view.sampling.z_adaptive) = (false, false),
+    },
+    Ablation {
+        name: "only z relaxed",
+        change: |view| (view.sampling.super_pixels, view.sampling.relaxation) = (false, 1.0),
+    },
+];
 
 impl Setting {
     /// Full sampling, which all others are measured against, and then each of `tolerances`, followed by

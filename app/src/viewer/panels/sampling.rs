@@ -41,6 +41,10 @@ impl SamplingPanel {
             widgets::row(ui, "Quick choice", |ui| widgets::choice(ui, tolerance, &CHOICES));
             self.tolerance = *tolerance;
             super_pixels(ui, &mut sampling.super_pixels);
+            levels(ui, &mut sampling.z_adaptive);
+            if sampling.z_adaptive {
+                relaxation(ui, &mut sampling.relaxation);
+            }
         }
     }
 
@@ -73,11 +77,37 @@ fn slider(ui: &mut Ui, tolerance: &mut f64) {
 }
 
 fn super_pixels(ui: &mut Ui, on: &mut bool) {
-    let hint = "Bricks (stretches of 8 × 8 rays or fewer) whose samples the tolerance cannot tell apart are \
-                shown by one colour each. The picture loses detail no larger than the tolerance, and no \
-                pixel's error exceeds it. Without them, nothing is left out: the picture is that of full \
-                sampling, and takes its time.";
+    let hint = "Bricks (2 × 2 rays, 4 slices deep) whose samples the tolerance cannot tell apart are shown by \
+                one colour each. Without them and without z-levels every brick that is seen is sampled in \
+                full.";
     widgets::row(ui, "Super-pixels", |ui| ui.checkbox(on, "One colour a brick").on_hover_text(hint));
+}
+
+fn levels(ui: &mut Ui, on: &mut bool) {
+    let hint = "Bricks may be sampled once a ray for their four slices. That is worth more than a super-pixel \
+                only where the bound is relaxed, or without super-pixels.";
+    widgets::row(ui, "z-levels", |ui| ui.checkbox(on, "Longer steps along the ray").on_hover_text(hint));
+}
+
+fn relaxation(ui: &mut Ui, relaxation: &mut f64) {
+    let hint = "E_relax: how much of the bound of a longer step is not charged to the tolerance. At 0 no pixel \
+                is farther from full sampling than the tolerance; above 0 that is likely, and no longer \
+                certain.";
+    widgets::row(ui, "Relaxation", |ui| {
+        let number = ui.spacing().interact_size.x;
+        ui.spacing_mut().slider_width = ui.available_width() - number - ui.spacing().item_spacing.x;
+        let slider = ui.add(Slider::new(relaxation, 0.0..=1.0).show_value(false)).on_hover_text(hint);
+        Areas::mark(ui, "relaxation", slider.rect);
+        if slider.changed() {
+            *relaxation = rounded(*relaxation, 2);
+        }
+        ui.add(widgets::number(relaxation, 1.0).range(0.0..=1.0)).on_hover_text(hint);
+    });
+    let guarantee = match *relaxation > 0.0 {
+        true => "Relaxed: the tolerance is no guarantee",
+        false => "Guaranteed: no pixel exceeds the tolerance",
+    };
+    ui.label(RichText::new(guarantee).small().weak());
 }
 
 /// An error in steps of a channel of 8 bits.

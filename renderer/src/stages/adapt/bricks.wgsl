@@ -188,12 +188,6 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
     return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
 }
 
-// Values of a column's bricks (shared/hull.wgsl): all lower bounds, all upper ones.
-struct ColumnValues {
-    low: vec4<f32>,
-    high: vec4<f32>,
-}
-
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let expanded = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));

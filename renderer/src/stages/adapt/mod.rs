@@ -10,7 +10,7 @@ use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
 
-/// Buffers as `levels.wgsl` describes them.
+/// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
 pub(crate) struct Adapt {
     /// One a kernel.
     pipelines: Vec<Pipeline>,
@@ -20,10 +20,10 @@ pub(crate) struct Adapt {
     slots_taken: Buffer,
     /// For each column of a slot.
     pub bricks: Buffer,
-    pub charges: Buffer,
+    pub offers: Buffer,
     pub shows: Buffer,
     /// For each bundle.
-    pub last_layers: Buffer,
+    pub bundle_entries: Buffer,
     /// Cells to be sampled, of one submission.
     pub wholes: Buffer,
     pub parts: Buffer,
@@ -47,6 +47,9 @@ impl Adapt {
                         TRANSFER_WGSL,
                         HULL_WGSL,
                         include_str!("bricks.wgsl"),
+                        include_str!("values.wgsl"),
+                        include_str!("offers.wgsl"),
+                        include_str!("filing.wgsl"),
                         include_str!("levels.wgsl"),
                     ],
                     entry_point: "choose_levels",
@@ -57,15 +60,15 @@ impl Adapt {
         };
         Adapt {
             pipelines: Kernel::ALL.iter().map(pipeline).collect(),
-            cell_values: Buffer::storage(gpu, "values of cells", 16),
+            cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
             bricks: Buffer::storage(gpu, "values of bricks", 32),
-            charges: Buffer::storage(gpu, "charges of bricks", 16),
+            offers: Buffer::storage(gpu, "offers of bricks", 32),
             shows: Buffer::storage(gpu, "middles of columns", 16),
-            last_layers: Buffer::storage(gpu, "last layers", 4),
-            wholes: Buffer::storage(gpu, "cells to be sampled", 16),
-            parts: Buffer::storage(gpu, "cells to be sampled in parts", 16),
+            bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),
+            wholes: Buffer::storage(gpu, "cells to be sampled", 8),
+            parts: Buffer::storage(gpu, "cells to be sampled in parts", 8),
             work: Buffer::storage(gpu, "work", 16),
         }
     }
@@ -74,9 +77,9 @@ impl Adapt {
     pub(crate) fn reserve(&mut self, gpu: &Gpu, tile: &Tile, filled: u64) -> Result<(), RenderError> {
         self.cell_values.reserve(gpu, tile.cells())?;
         self.sampled.reserve(gpu, tile.cells())?;
-        self.last_layers.reserve(gpu, tile.bundles())?;
+        self.bundle_entries.reserve(gpu, tile.bundles())?;
         self.bricks.reserve(gpu, filled * COLUMNS)?;
-        self.charges.reserve(gpu, filled * COLUMNS)?;
+        self.offers.reserve(gpu, filled * COLUMNS)?;
         self.shows.reserve(gpu, filled * COLUMNS)?;
         self.wholes.reserve(gpu, filled)?;
         self.parts.reserve(gpu, filled)
@@ -106,9 +109,9 @@ impl Adapt {
             &self.cell_values,
             &self.slots_taken,
             &self.bricks,
-            &self.charges,
+            &self.offers,
             &self.shows,
-            &self.last_layers,
+            &self.bundle_entries,
             &self.sampled,
             &self.wholes,
             &self.parts,
@@ -124,8 +127,8 @@ impl Adapt {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.charges, &self.shows];
-        let lists = [&self.last_layers, &self.wholes, &self.parts];
+        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.offers, &self.shows];
+        let lists = [&self.bundle_entries, &self.wholes, &self.parts];
         buffers.into_iter().chain(lists).map(Buffer::bytes).sum()
     }
 }

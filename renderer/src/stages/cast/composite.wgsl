@@ -5,7 +5,7 @@
 @group(0) @binding(12) var<storage, read_write> pixels: array<vec4<f32>>;
 @group(0) @binding(13) var<storage, read> segments: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read> sampled: array<u32>;
-@group(0) @binding(15) var<storage, read> last_layers: array<u32>;
+@group(0) @binding(15) var<storage, read> bundle_entries: array<BundleEntry>;
 @group(0) @binding(16) var<storage, read> cell_values: array<CellEntry>;
 @group(0) @binding(17) var<storage, read> shows: array<vec4<f32>>;
 
@@ -17,7 +17,7 @@ fn composite_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     }
     let index = bundle_of(turn);
     var ray = Ray(vec3(0.0), 1.0);
-    let end_layer = last_layers[index];
+    let end_layer = bundle_entries[index].end_layer;
     var first = first_of_cell(index * tile.layers);
     for (var layer = 0u; layer < end_layer && ray.transparency > OPAQUE; layer += 1u) {
         let cell = index * tile.layers + layer;

@@ -152,13 +152,15 @@ impl Cast {
         let (segments, values) = (&self.segments, &adapt.cell_values);
         let [portions, sums] = self.crowds.buffers();
         let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
-            let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.charges];
+            let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
         sample(&self.parts[kernel], pass, &adapt.parts, work.parts);
-        let cells =
-            with(shared, &[&self.pixels, segments, &adapt.sampled, &adapt.last_layers, values, &adapt.shows]);
+        let cells = with(
+            shared,
+            &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],
+        );
         self.composite.dispatch(gpu, pass, &cells, bundles);
     }
 

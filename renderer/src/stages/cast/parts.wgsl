@@ -1,18 +1,24 @@
-// Samples some bricks of a cell: a workgroup a cell. A lane stands not for a ray but for a ray's four
-// samples in a brick, so that few bricks keep all lanes busy.
+// Samples some bricks of a cell: a workgroup a cell. A lane stands not for a ray but for four samples of
+// a ray, so that few bricks keep all lanes busy: those in a brick, or the four of level 2, one in each
+// brick.
 
-// Bricks to be sampled: at most 32, two units of work a lane.
+// Bricks to be sampled at every slice, then columns to be sampled at level 2: brick b of column c is
+// 16b + c, and column c is 64 + c. At most 32, two units of work a lane.
 var<workgroup> todo: array<u32, LANES>;
 // Colour and opacity of ray r in the brick layer b of the cell: 4r + b.
 var<workgroup> strands: array<vec4<f32>, 256>;
 
-// A ray's four samples in a brick.
+// The brick layer of samples of level 2.
+const LEVEL_2: u32 = 4u;
+
+// Four samples of a ray.
 struct Unit {
     // 1 where there is such a unit, else 0.
     count: u32,
     ray: u32,
     brick_layer: u32,
     from_axis: vec2<f32>,
+    depths: vec4<f32>,
     weights: vec4<f32>,
     charges: vec4<f32>,
 }
@@ -21,34 +27,49 @@ fn unit_of(number: u32, units: u32) -> Unit {
     let brick = todo[min(number, units - 1u) / 4u];
     let ray = 4u * (brick % COLUMNS) + number % 4u;
     let count = select(0u, 1u, number < units);
-    return Unit(count, ray, brick / COLUMNS, ray_from_axis(ray), vec4(0.0), vec4(0.0));
+    let layer = brick / COLUMNS;
+    let depths = select(frame.sample_offset[min(layer, 3u)], frame.coarse_offset, layer == LEVEL_2);
+    return Unit(count, ray, layer, ray_from_axis(ray), depths, vec4(0.0), vec4(0.0));
 }
 
 // Adds a particle to a unit; returns the evaluations that it took.
 fn add_to_unit(unit: ptr<function, Unit>, axis: vec2<f32>, ball: vec4<f32>, charge: vec2<f32>) -> u32 {
     let direction = vec3(axis + (*unit).from_axis, 1.0);
     let arc = arc_through(ball, (*unit).from_axis, direction, dot(direction, direction));
-    let depths = frame.sample_offset[(*unit).brick_layer];
-    if arc.top <= 0.0 || !meets(depths, arc) {
+    if arc.top <= 0.0 || !meets((*unit).depths, arc) {
         return 0u;
     }
-    let k = kernel_on(depths, arc);
+    let k = kernel_on((*unit).depths, arc);
     (*unit).weights += charge.x * k;
     (*unit).charges += charge.y * k;
     return 4u;
 }
 
-fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32) {
+// Composites a unit's samples: into the brick that they are in, or each into its own, of those that are
+// sampled so.
+fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32, coarse: vec2<u32>) {
     let scale = depth * length(vec3(axis + unit.from_axis, 1.0)) * frame.path_scale;
-    let paths = frame.slab_depth[unit.brick_layer] * scale;
-    let strand = composite_four(vec4(0.0), unit.weights, unit.charges, reference, paths);
-    if unit.count > 0u {
+    if unit.count == 0u {
+        return;
+    }
+    if unit.brick_layer < LEVEL_2 {
+        let paths = frame.slab_depth[unit.brick_layer] * scale;
+        let strand = composite_four(vec4(0.0), unit.weights, unit.charges, reference, paths);
         strands[4u * unit.ray + unit.brick_layer] = strand;
+        return;
+    }
+    for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
+        if is_chosen(coarse, unit.ray / 4u, i) {
+            let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
+            strands[4u * unit.ray + i] = composite(vec4(0.0), unit.weights[i], unit.charges[i], reference, path);
+        }
     }
 }
 
-// Samples the `count` bricks of `todo` into `strands`.
-fn sample_bricks(layer: u32, first: u32, end: u32, count: u32, axis: vec2<f32>, lane: u32) {
+// Samples the `count` bricks and columns of `todo` into `strands`.
+fn sample_bricks(
+    layer: u32, first: u32, end: u32, count: u32, coarse: vec2<u32>, axis: vec2<f32>, lane: u32,
+) {
     let depths = layer_depth[tile.first_layer + layer];
     let middle = vec3(depths.x * axis, depths.y);
     let reference = reference_of(first);
@@ -70,16 +91,16 @@ fn sample_bricks(layer: u32, first: u32, end: u32, count: u32, axis: vec2<f32>, 
         }
         workgroupBarrier();
     }
-    finish_unit(a, axis, reference, depths.x);
-    finish_unit(b, axis, reference, depths.x);
+    finish_unit(a, axis, reference, depths.x, coarse);
+    finish_unit(b, axis, reference, depths.x, coarse);
     add_to_tally(0u, done);
 }
 
 // How many chosen bricks have lower bits.
-fn rank_of(task: vec4<u32>, column: u32, brick_layer: u32) -> u32 {
+fn rank_of(mask: vec2<u32>, column: u32, brick_layer: u32) -> u32 {
     let bit = column + 16u * (brick_layer % 2u);
-    let before = task[2u + brick_layer / 2u] & ((1u << bit) - 1u);
-    return countOneBits(before) + select(0u, countOneBits(task.z), brick_layer >= 2u);
+    let before = mask[brick_layer / 2u] & ((1u << bit) - 1u);
+    return countOneBits(before) + select(0u, countOneBits(mask.x), brick_layer >= 2u);
 }
 
 @compute @workgroup_size(LANES)
@@ -90,21 +111,28 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     }
     let task = tasks[number];
     let cell = task.x;
+    let entry = cell_values[cell];
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
     // The lane's brick.
     let column = lane % COLUMNS;
     let brick_layer = lane / COLUMNS;
-    if is_chosen(task, column, brick_layer) {
-        todo[rank_of(task, column, brick_layer)] = lane;
-    } else {
+    let bricks_to_do = countOneBits(entry.sampled.x) + countOneBits(entry.sampled.y);
+    let columns = columns_in(entry.coarse);
+    if is_chosen(entry.sampled, column, brick_layer) {
+        todo[rank_of(entry.sampled, column, brick_layer)] = lane;
+    } else if !is_chosen(entry.coarse, column, brick_layer) {
         let middle = middle_of(cell, column, brick_layer, axis);
         for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
             strands[4u * ray + brick_layer] = middle;
         }
     }
+    if brick_layer == 0u && (columns >> column & 1u) == 1u {
+        let before = countOneBits(columns & ((1u << column) - 1u));
+        todo[bricks_to_do + before] = LEVEL_2 * COLUMNS + column;
+    }
     workgroupBarrier();
-    let count = countOneBits(task.z) + countOneBits(task.w);
-    sample_bricks(cell % tile.layers, first_of_cell(cell), cells[cell], count, axis, lane);
+    let count = bricks_to_do + countOneBits(columns);
+    sample_bricks(cell % tile.layers, first_of_cell(cell), cells[cell], count, entry.coarse, axis, lane);
     workgroupBarrier();
     var segment = vec4(0.0);
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {

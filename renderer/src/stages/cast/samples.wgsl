@@ -21,17 +21,11 @@ fn reference_of(first: u32) -> f32 {
     return clamp(quantities[pairs[first]], 0.0, 1.0);
 }
 
-// Brings up to 64 particles of the cell, one a lane, into shared memory. Quantities are relative to
-// `reference`, a value of the cell: where all particles have the same one, the sum is exact.
-// `middle`: of the cell, relative to the pivot.
+// Brings up to 64 particles of the cell, one a lane, into shared memory.
 fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
-    let particle = pairs[place];
-    let ball = projected[particle];
-    let inverse_radius = depth / ball.w;
-    balls[lane] = vec4((ball.xyz - middle) / depth, inverse_radius * inverse_radius);
-    let quantity = quantities[particle];
-    let weight = select(weights[particle], 0.0, quantity > REJECTED);
-    loads[lane] = vec2(weight, select(weight * (quantity - reference), 0.0, quantity > REJECTED));
+    let particle = particle_in_cell(place, middle, depth, reference);
+    balls[lane] = particle.ball;
+    loads[lane] = vec2(particle.weight, particle.weight * particle.quantity);
 }
 
 // A ray's way through a ball: along it, 1 − ρ² is a parabola.
@@ -91,7 +85,7 @@ fn composite_four(
 // Colour and opacity of a ray's stretch through one cell.
 //
 // `slope` is the ray's, `from_axis` its distance in slope from the bundle's axis; `sampled` are bits of
-// its four bricks.
+// its four bricks that are sampled at every slice, and from bit 4 on of those sampled at level 2.
 fn cast_cell(
     layer: u32,
     first: u32,
@@ -112,9 +106,11 @@ fn cast_cell(
     // array would live in memory.
     var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
     var q0 = vec4(0.0); var q1 = vec4(0.0); var q2 = vec4(0.0); var q3 = vec4(0.0);
+    // At its four samples of level 2.
+    var w_coarse = vec4(0.0); var q_coarse = vec4(0.0);
     let at = frame.sample_offset;
-    var done = 0u;
-    var inside = 0u;
+    // Evaluations done, and those with a weight above zero.
+    var count = vec2(0u);
 
     let crowd = portions_of(first, end);
     let walk_end = select(end, first, crowd.x < crowd.y);
@@ -130,39 +126,18 @@ fn cast_cell(
                 continue;
             }
             let charge = loads[i];
-            if is_sampled(sampled, 0u) && meets(at[0], arc) {
-                let k = kernel_on(at[0], arc);
-                w0 += charge.x * k;
-                q0 += charge.y * k;
-                done += 4u;
-                if COUNT_INSIDE { inside += positive(k); }
-            }
-            if is_sampled(sampled, 1u) && meets(at[1], arc) {
-                let k = kernel_on(at[1], arc);
-                w1 += charge.x * k;
-                q1 += charge.y * k;
-                done += 4u;
-                if COUNT_INSIDE { inside += positive(k); }
-            }
-            if is_sampled(sampled, 2u) && meets(at[2], arc) {
-                let k = kernel_on(at[2], arc);
-                w2 += charge.x * k;
-                q2 += charge.y * k;
-                done += 4u;
-                if COUNT_INSIDE { inside += positive(k); }
-            }
-            if is_sampled(sampled, 3u) && meets(at[3], arc) {
-                let k = kernel_on(at[3], arc);
-                w3 += charge.x * k;
-                q3 += charge.y * k;
-                done += 4u;
-                if COUNT_INSIDE { inside += positive(k); }
+            if is_sampled(sampled, 0u) { count += add_samples(at[0], arc, charge, &w0, &q0); }
+            if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, charge, &w1, &q1); }
+            if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, charge, &w2, &q2); }
+            if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, charge, &w3, &q3); }
+            if SOME_SHOWN && sampled > 15u {
+                count += add_samples(frame.coarse_offset, arc, charge, &w_coarse, &q_coarse);
             }
         }
         workgroupBarrier();
     }
-    add_to_tally(0u, done);
-    if COUNT_INSIDE { add_to_tally(2u, inside); }
+    add_to_tally(0u, count.x);
+    if COUNT_INSIDE { add_to_tally(2u, count.y); }
     for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
         let sums = portion_sums[portion * LANES + lane];
         w0 += sums[0]; w1 += sums[1]; w2 += sums[2]; w3 += sums[3];
@@ -171,11 +146,12 @@ fn cast_cell(
 
     let path = frame.slab_depth;
     let scale = depth * sqrt(direction_squared) * frame.path_scale;
+    let coarse = Coarse(w_coarse, q_coarse, sampled >> 4u);
     var cell = vec4(0.0);
-    cell = pass_brick(cell, 0u, w0, q0, reference, path[0] * scale, sampled, lane);
-    cell = pass_brick(cell, 1u, w1, q1, reference, path[1] * scale, sampled, lane);
-    cell = pass_brick(cell, 2u, w2, q2, reference, path[2] * scale, sampled, lane);
-    return pass_brick(cell, 3u, w3, q3, reference, path[3] * scale, sampled, lane);
+    cell = pass_brick(cell, 0u, w0, q0, reference, path[0] * scale, sampled, coarse, lane);
+    cell = pass_brick(cell, 1u, w1, q1, reference, path[1] * scale, sampled, coarse, lane);
+    cell = pass_brick(cell, 2u, w2, q2, reference, path[2] * scale, sampled, coarse, lane);
+    return pass_brick(cell, 3u, w3, q3, reference, path[3] * scale, sampled, coarse, lane);
 }
 
 // Adds a particle to the sums at four samples; returns how many evaluations that took, and how many of
@@ -196,11 +172,18 @@ fn add_samples(
     return vec2(4u, select(0u, positive(k), COUNT_INSIDE));
 }
 
+// Sums at the samples of level 2, and bits of the bricks for which they stand.
+struct Coarse {
+    weights: vec4<f32>,
+    quantities: vec4<f32>,
+    bricks: u32,
+}
+
 fn is_sampled(sampled: u32, brick_layer: u32) -> bool {
     return !SOME_SHOWN || (sampled >> brick_layer & 1u) == 1u;
 }
 
-// One more brick behind the others: its samples, or its middle.
+// One more brick behind the others: its samples, its only sample, or its middle.
 fn pass_brick(
     cell: vec4<f32>,
     brick_layer: u32,
@@ -209,10 +192,15 @@ fn pass_brick(
     reference: f32,
     paths: vec4<f32>,
     sampled: u32,
+    coarse: Coarse,
     lane: u32,
 ) -> vec4<f32> {
     if is_sampled(sampled, brick_layer) {
         return composite_four(cell, weights, quantities, reference, paths);
+    }
+    if (coarse.bricks >> brick_layer & 1u) == 1u {
+        let weight = coarse.weights[brick_layer];
+        return composite(cell, weight, coarse.quantities[brick_layer], reference, dot(paths, vec4(1.0)));
     }
     return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];
 }

@@ -8,11 +8,13 @@ fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     }
     let task = tasks[number];
     let cell = task.x;
+    let entry = cell_values[cell];
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
     middles[lane] = middle_of(cell, lane % COLUMNS, lane / COLUMNS, axis);
     var sampled = 0u;
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
-        sampled |= select(0u, 1u << i, is_chosen(task, lane / 4u, i));
+        sampled |= select(0u, 1u << i, is_chosen(entry.sampled, lane / 4u, i));
+        sampled |= select(0u, 16u << i, is_chosen(entry.coarse, lane / 4u, i));
     }
     workgroupBarrier();
     let from_axis = ray_from_axis(lane);

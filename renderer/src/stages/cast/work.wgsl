@@ -9,15 +9,16 @@ struct Work {
 // Colour and opacity of each ray in a sampled cell, 64 a cell.
 @group(0) @binding(14) var<storage, read_write> segments: array<vec4<f32>>;
 @group(0) @binding(15) var<storage, read> work: Work;
-// Cell, its place among the sampled ones, and bits of the bricks to be sampled.
-@group(0) @binding(16) var<storage, read> tasks: array<vec4<u32>>;
+// Cell, and its place among the sampled ones.
+@group(0) @binding(16) var<storage, read> tasks: array<vec2<u32>>;
 @group(0) @binding(17) var<storage, read> cell_values: array<CellEntry>;
-@group(0) @binding(18) var<storage, read> bricks: array<array<vec4<f32>, 2>>;
-@group(0) @binding(19) var<storage, read> charges: array<vec4<f32>>;
+@group(0) @binding(18) var<storage, read> bricks: array<ColumnValues>;
+// Costs of showing or coarsely sampling a column's bricks, negative where no light comes from.
+@group(0) @binding(19) var<storage, read> offers: array<array<vec4<f32>, 2>>;
 
-// Place of a brick's bit in the two words of a task: 16·(b mod 2) + c in word b/2.
-fn is_chosen(task: vec4<u32>, column: u32, brick_layer: u32) -> bool {
-    return (task[2u + brick_layer / 2u] >> (column + 16u * (brick_layer % 2u)) & 1u) == 1u;
+// Whether a brick is in a mask of CellEntry.
+fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
+    return (mask[brick_layer / 2u] >> (column + 16u * (brick_layer % 2u)) & 1u) == 1u;
 }
 
 // What stands for a brick that is not sampled.
@@ -25,6 +26,6 @@ fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<
     let place = (max(cell_values[cell].slot, 2u) - 2u) * COLUMNS + column;
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
-    let hull = hull_of(vec2(bricks[place][0][brick_layer], bricks[place][1][brick_layer]), paths);
-    return select(vec4(0.0), hull.middle, charges[place][brick_layer] >= 0.0);
+    let hull = hull_of(vec2(bricks[place].low[brick_layer], bricks[place].high[brick_layer]), paths);
+    return select(vec4(0.0), hull.middle, offers[place][0][brick_layer] >= 0.0);
 }

@@ -8,6 +8,7 @@ use super::{ParticleStore, TransferTables};
 use crate::camera::Slices;
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu};
+use crate::sampling::Sampling;
 use crate::stages::grid::Grid;
 
 /// `Chunk` of `bundle.wgsl`.
@@ -18,6 +19,10 @@ struct Chunk {
     end_turn: u32,
     stride: u32,
     budget: f32,
+    relaxation: f32,
+    super_pixels: u32,
+    z_adaptive: u32,
+    padding: u32,
 }
 
 /// The first bindings of these shaders, in their order.
@@ -49,6 +54,8 @@ pub(crate) struct Counters {
     pub mixed: u64,
     pub super_pixel: u64,
     pub transparent: u64,
+    /// Cells sampled at levels 1 to 4.
+    pub z_adaptive: [u64; 4],
 }
 
 const COUNTER_WORDS: u64 = 16;
@@ -78,18 +85,27 @@ impl Bundles {
     }
 
     /// Says which of the tile's `bundles` the next submission takes: those whose `turns` it is; and
-    /// what may be charged to their rays.
+    /// how they are sampled.
     pub(crate) fn write_chunk(
         &mut self,
         gpu: &Gpu,
         turns: Range<u64>,
         bundles: u64,
-        budget: f32,
+        sampling: &Sampling,
     ) -> Result<(), RenderError> {
         // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
         // its caches. A software adapter gives each thread a stretch of them beforehand.
         let stride = if gpu.is_software() { spread(bundles) } else { 1 };
-        let chunk = Chunk { first_turn: turns.start as u32, end_turn: turns.end as u32, stride, budget };
+        let chunk = Chunk {
+            first_turn: turns.start as u32,
+            end_turn: turns.end as u32,
+            stride,
+            budget: sampling.budget().unwrap_or(0.0),
+            relaxation: sampling.relaxation,
+            super_pixels: sampling.super_pixels.into(),
+            z_adaptive: sampling.may_coarsen().into(),
+            padding: 0,
+        };
         self.chunk.write(gpu, &[chunk])
     }
 
@@ -139,6 +155,7 @@ impl Bundles {
             mixed: words[9].into(),
             super_pixel: words[10].into(),
             transparent: words[11].into(),
+            z_adaptive: std::array::from_fn(|level| words[12 + level].into()),
         })
     }
 
@@ -182,6 +199,18 @@ mod tests {
     #[test]
     fn chunks_lie_as_the_shader_expects() {
         let source = [FRAME_WGSL, BUNDLE_WGSL].concat();
-        check_layout!(&source, "Chunk", Chunk, first_turn, end_turn, stride, budget);
+        check_layout!(
+            &source,
+            "Chunk",
+            Chunk,
+            first_turn,
+            end_turn,
+            stride,
+            budget,
+            relaxation,
+            super_pixels,
+            z_adaptive,
+            padding
+        );
     }
 }

@@ -8,6 +8,12 @@ struct Chunk {
     stride: u32,
     // What may be charged to a ray of an adaptive picture.
     budget: f32,
+    // E_relax.
+    relaxation: f32,
+    // 1 where bricks may be shown unsampled, and be sampled at level 2.
+    super_pixels: u32,
+    z_adaptive: u32,
+    padding: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -37,6 +43,8 @@ const CELLS_FULL: u32 = 8u;
 const CELLS_MIXED: u32 = 9u;
 const CELLS_SUPER_PIXEL: u32 = 10u;
 const CELLS_TRANSPARENT: u32 = 11u;
+// Cells sampled at level 1; those at levels 2 to 4 follow.
+const CELLS_Z_ADAPTIVE: u32 = 12u;
 
 const LANES: u32 = 64u;
 // Quantity of a particle that is left out (Quantity::REJECTED).
@@ -59,6 +67,29 @@ fn corner_of(index: u32) -> vec2<f32> {
 // Where the references of a cell begin.
 fn first_of_cell(cell: u32) -> u32 {
     return select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
+}
+
+// A particle as a cell sees it.
+struct Particle {
+    // Place relative to the middle of the cell, in units of that middle's depth, and 1/h².
+    ball: vec4<f32>,
+    weight: f32,
+    // Relative to the cell's reference: where all particles have the same one, sums are exact.
+    quantity: f32,
+}
+
+// The particle of a reference; one that is left out weighs nothing and is out of reach. `middle`: of the
+// cell, relative to the pivot.
+fn particle_in_cell(reference: u32, middle: vec3<f32>, depth: f32, quantity_reference: f32) -> Particle {
+    let particle = pairs[reference];
+    let quantity = quantities[particle];
+    if quantity > REJECTED {
+        return Particle(vec4(vec3(1e6), 1.0), 0.0, 0.0);
+    }
+    let ball = projected[particle];
+    let inverse_radius = depth / ball.w;
+    let place = vec4((ball.xyz - middle) / depth, inverse_radius * inverse_radius);
+    return Particle(place, weights[particle], quantity - quantity_reference);
 }
 
 // Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact

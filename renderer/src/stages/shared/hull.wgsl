@@ -12,15 +12,39 @@ const BRICK_DEPTH: u32 = 4u;
 const EMPTY: vec2<f32> = vec2(-1.0, -1.0);
 const COVERED: f32 = 2.0;
 
+// Values of a column's bricks, components from front to back.
+struct ColumnValues {
+    low: vec4<f32>,
+    high: vec4<f32>,
+}
+
 // What is known of a cell.
 struct CellEntry {
     // Values of the cell as a whole.
     values: vec2<f32>,
     // Place of its bricks' values + 2; 1 where only the values as a whole are known; 0 for neither.
     slot: u32,
-    // What became of it in the last choice: the place of its class's counter; from bit 8 on, the number
-    // of its bricks that are sampled. Stale where the bundle had ended before the cell.
-    class_and_bricks: u32,
+    // What became of it in the last choice: the place of its class's counter. Stale, like the masks,
+    // where the bundle ended before the cell.
+    class_index: u32,
+    // Bricks that are sampled, at every slice and at level 2: bit 16·(b mod 2) + c of word b/2 is brick
+    // b of column c.
+    sampled: vec2<u32>,
+    coarse: vec2<u32>,
+}
+
+// Bits of the columns that have any brick in a mask.
+fn columns_in(mask: vec2<u32>) -> u32 {
+    let both = mask.x | mask.y;
+    return (both | both >> 16u) & 0xffffu;
+}
+
+// What the analysis found out of a bundle.
+struct BundleEntry {
+    // The layer after the last one that is seen.
+    end_layer: u32,
+    // What is charged to the rays of each column.
+    charged: array<f32, 16>,
 }
 
 fn transfer_over(values: vec2<f32>) -> Extremes {
@@ -39,6 +63,8 @@ struct Hull {
     middle: vec4<f32>,
     // By how much full sampling may differ from that in any channel, whatever lies behind.
     charge: f32,
+    // By how much two responses within the hull may differ.
+    width: f32,
     // Upper bound of the transparency.
     open: f32,
 }
@@ -52,7 +78,7 @@ struct Hull {
 // and the middle is linear, so the two ends decide.
 fn hull_of(values: vec2<f32>, paths: vec2<f32>) -> Hull {
     if values.x < 0.0 {
-        return Hull(vec4(0.0), 0.0, 1.0);
+        return Hull(vec4(0.0), 0.0, 0.0, 1.0);
     }
     let transfer = transfer_over(values);
     let covered = values.y >= COVERED;
@@ -71,7 +97,10 @@ fn hull_of(values: vec2<f32>, paths: vec2<f32>) -> Hull {
     let colour = clamp(0.5 * (least + greatest), vec3(0.0), vec3(opacity));
     let off = max(greatest - colour, colour - least);
     let charge = max(max(off.x, max(off.y, off.z)), 0.5 * (thick - thin));
-    return Hull(vec4(colour, opacity), select(charge, 0.0, thick == 0.0), 1.0 - thin);
+    let wide = max(at_black.high - at_black.low, at_white.high - at_white.low);
+    let width = max(max(wide.x, max(wide.y, wide.z)), thick - thin);
+    let seen = thick > 0.0;
+    return Hull(vec4(colour, opacity), select(0.0, charge, seen), select(0.0, width, seen), 1.0 - thin);
 }
 
 struct Band {

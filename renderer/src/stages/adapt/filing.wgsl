@@ -1,0 +1,96 @@
+// What the choice makes of cells: masks of the bricks to be sampled, classes, and lists of work.
+
+// For each cell its place among those that are sampled + 2, 1 where it is shown, 0 where nothing is.
+@group(0) @binding(18) var<storage, read_write> sampled: array<u32>;
+// Cells to be sampled, where most bricks are and where few are: cell, and place among the sampled ones.
+@group(0) @binding(19) var<storage, read_write> wholes: array<vec2<u32>>;
+@group(0) @binding(20) var<storage, read_write> parts: array<vec2<u32>>;
+@group(0) @binding(21) var<storage, read_write> work: Work;
+
+struct Work {
+    wholes: atomic<u32>,
+    parts: atomic<u32>,
+    sampled: atomic<u32>,
+}
+
+// Bricks and columns that four lanes can sample, each with two units of work.
+const MOST_UNITS: u32 = 32u;
+
+// Bricks of the group's cells to be sampled at every slice, and at level 2: two words each (CellEntry).
+var<workgroup> sampled_masks: array<atomic<u32>, 8>;
+var<workgroup> coarse_masks: array<atomic<u32>, 8>;
+// Of each cell: SEEN, PAID.
+var<workgroup> shown: array<atomic<u32>, GROUP_CELLS>;
+
+// Some column is seen; some brick is not sampled in full, at a cost: bricks with nothing in them are not
+// sampled either.
+const SEEN: u32 = 1u;
+const PAID: u32 = 2u;
+
+fn clear_masks(lane: u32) {
+    if lane < 8u {
+        atomicStore(&sampled_masks[lane], 0u);
+        atomicStore(&coarse_masks[lane], 0u);
+    }
+    if lane < GROUP_CELLS {
+        atomicStore(&shown[lane], 0u);
+    }
+}
+
+// Bits of a column's bricks in the two words of a mask.
+fn bits_of(column: u32, chosen: vec4<bool>) -> vec2<u32> {
+    let bit = 1u << column;
+    return vec2(
+        select(0u, bit, chosen.x) | select(0u, bit << 16u, chosen.y),
+        select(0u, bit, chosen.z) | select(0u, bit << 16u, chosen.w),
+    );
+}
+
+// `paid`: bricks whose offer has a cost.
+fn note_column(
+    number: u32, column: u32, fine: vec4<bool>, coarse: vec4<bool>, seen: bool, paid: vec4<bool>,
+) {
+    let fine_bits = bits_of(column, fine);
+    let coarse_bits = bits_of(column, coarse);
+    atomicOr(&sampled_masks[2u * number], fine_bits.x);
+    atomicOr(&sampled_masks[2u * number + 1u], fine_bits.y);
+    atomicOr(&coarse_masks[2u * number], coarse_bits.x);
+    atomicOr(&coarse_masks[2u * number + 1u], coarse_bits.y);
+    let some_paid = any(paid & !fine);
+    atomicOr(&shown[number], select(0u, SEEN, seen) | select(0u, PAID, some_paid));
+}
+
+// Notes a cell's masks and class, and puts it on the list of those to be sampled as a whole or in parts.
+fn file_cell(cell: u32, number: u32) {
+    let fine = vec2(atomicLoad(&sampled_masks[2u * number]), atomicLoad(&sampled_masks[2u * number + 1u]));
+    let coarse = vec2(atomicLoad(&coarse_masks[2u * number]), atomicLoad(&coarse_masks[2u * number + 1u]));
+    let flags = atomicLoad(&shown[number]);
+    let bricks = countOneBits(fine.x) + countOneBits(fine.y);
+    let units = bricks + countOneBits(columns_in(coarse));
+    let class_index = class_of_cell(bricks, units, flags);
+    atomicAdd(&counters[class_index], 1u);
+    cell_values[cell].class_index = class_index;
+    cell_values[cell].sampled = fine;
+    cell_values[cell].coarse = coarse;
+    if units == 0u {
+        sampled[cell] = flags & SEEN;
+        return;
+    }
+    let place = atomicAdd(&work.sampled, 1u);
+    sampled[cell] = place + 2u;
+    if units > MOST_UNITS {
+        wholes[atomicAdd(&work.wholes, 1u)] = vec2(cell, place);
+    } else {
+        parts[atomicAdd(&work.parts, 1u)] = vec2(cell, place);
+    }
+}
+
+fn class_of_cell(bricks: u32, units: u32, flags: u32) -> u32 {
+    if units == 0u {
+        return select(CELLS_TRANSPARENT, CELLS_SUPER_PIXEL, (flags & SEEN) > 0u);
+    }
+    if bricks == 0u {
+        return CELLS_Z_ADAPTIVE + 1u;
+    }
+    return select(CELLS_FULL, CELLS_MIXED, (flags & PAID) > 0u);
+}

@@ -1,0 +1,154 @@
+// What it costs to do less than sample a brick at every slice, and what a column may afford.
+//
+// A brick may be shown by the middle of its hull, at no evaluations, or be sampled once a ray for all
+// its slices (level 2: Sec. 4 of the paper). The latter is charged the full width of the hull, less what
+// relaxation forgives; so it is worth its while only under relaxation, or where nothing may be shown.
+// Where it is, there are two steps: to level 2, which saves most, and on to showing the brick, which
+// saves the rest and costs more for each evaluation. Otherwise there is only one.
+
+// No light comes from the brick; there is no such step.
+const NONE: f32 = -1.0;
+// The share of a brick's evaluations that level 2 saves.
+const SAVED_AT_LEVEL_2: f32 = 0.75;
+// No budget is as large.
+const UNAFFORDABLE: f32 = 1e6;
+
+// Scores, the cost of a step for each evaluation saved, fall into classes of half an octave, down to 2⁻³².
+const CLASSES: u32 = 64u;
+// By its bits: the class of a score of 1 and more.
+const LEAST_CLASS: u32 = 254u - 63u;
+// A cost as large as the budget, in `spending`.
+const WHOLE: f32 = 262144.0;
+
+// Costs by column and class, in shares of the budget.
+var<workgroup> spending: array<atomic<u32>, 1024>;
+
+// The four hulls of a column, one behind the other.
+struct ColumnHull {
+    // Colour and opacity of the middles together.
+    shown: vec4<f32>,
+    charge: vec4<f32>,
+    width: vec4<f32>,
+    // Transparencies in front of each, if nothing stood before the column.
+    front: vec4<f32>,
+    open: f32,
+}
+
+fn behind(shown: vec4<f32>, middle: vec4<f32>) -> vec4<f32> {
+    return shown + (1.0 - shown.a) * middle;
+}
+
+fn hull_of_column(values: ColumnValues, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
+    let a = hull_of(vec2(values.low.x, values.high.x), paths[0] * depth);
+    let b = hull_of(vec2(values.low.y, values.high.y), paths[1] * depth);
+    let c = hull_of(vec2(values.low.z, values.high.z), paths[2] * depth);
+    let d = hull_of(vec2(values.low.w, values.high.w), paths[3] * depth);
+    return ColumnHull(
+        behind(behind(behind(a.middle, b.middle), c.middle), d.middle),
+        vec4(a.charge, b.charge, c.charge, d.charge),
+        vec4(a.width, b.width, c.width, d.width),
+        vec4(1.0, a.open, a.open * b.open, a.open * b.open * c.open),
+        a.open * b.open * c.open * d.open,
+    );
+}
+
+// Costs of a column's bricks.
+struct Offers {
+    // Of the first step, or NONE where no light comes from the brick.
+    first: vec4<f32>,
+    // Of the second, or NONE where the first one leads to showing the brick.
+    second: vec4<f32>,
+}
+
+// Offers for a column, before which so much light comes through.
+fn offers_of(hull: ColumnHull, before: f32) -> Offers {
+    let front = before * hull.front * (1.0 + ROUNDING);
+    let free = hull.charge == vec4(0.0);
+    let show = select(vec4(UNAFFORDABLE), front * hull.charge, free | vec4(chunk.super_pixels == 1u));
+    if chunk.z_adaptive == 0u {
+        return Offers(show, vec4(NONE));
+    }
+    // The bounds hold for whole bricks, so a brick is as wide at level 0 as at level 2.
+    let relaxed = front * hull.width * (1.0 - chunk.relaxation);
+    // Sec. 5 of the paper: no cell is wider than the tolerance by itself, relaxed or not.
+    let coarse = select(vec4(UNAFFORDABLE), relaxed, hull.width < vec4(chunk.budget));
+    let two_steps = coarse < SAVED_AT_LEVEL_2 * show;
+    return Offers(select(show, coarse, two_steps), select(vec4(NONE), show - coarse, two_steps));
+}
+
+// Classes of the steps to a brick's offers. By exponent and first bit of the score: no rounding, so both
+// walks find the same class.
+struct Classes {
+    first: vec4<u32>,
+    second: vec4<u32>,
+}
+
+fn classes_of(offers: Offers, particles: f32) -> Classes {
+    let two_steps = offers.second >= vec4(0.0);
+    let first_saves = select(vec4(1.0), vec4(SAVED_AT_LEVEL_2), two_steps) * particles;
+    return Classes(
+        class_of(offers.first, first_saves),
+        class_of(offers.second, vec4((1.0 - SAVED_AT_LEVEL_2) * particles)),
+    );
+}
+
+fn class_of(cost: vec4<f32>, saved: vec4<f32>) -> vec4<u32> {
+    let score = max(cost, vec4(0.0)) / (chunk.budget * saved);
+    let bits = bitcast<vec4<u32>>(score) >> vec4(22u);
+    return clamp(bits, vec4(LEAST_CLASS), vec4(LEAST_CLASS + CLASSES - 1u)) - LEAST_CLASS;
+}
+
+fn clear_spending(lane: u32) {
+    for (var i = lane; i < COLUMNS * CLASSES; i += LANES) {
+        atomicStore(&spending[i], 0u);
+    }
+}
+
+fn spend_four(column: u32, costs: vec4<f32>, classes: vec4<u32>) {
+    spend(column, costs.x, classes.x);
+    spend(column, costs.y, classes.y);
+    spend(column, costs.z, classes.z);
+    spend(column, costs.w, classes.w);
+}
+
+fn spend(column: u32, cost: f32, class_index: u32) {
+    if cost > 0.0 {
+        // Twice the budget is too much in any company.
+        let share = u32(ceil(min(cost / chunk.budget, 2.0) * WHOLE));
+        atomicAdd(&spending[column * CLASSES + class_index], share);
+    }
+}
+
+// Which steps a column takes: those of the classes before `marginal`, and those of that class, from
+// front to back, until `left` is used up.
+struct Plan {
+    marginal: u32,
+    left: f32,
+    spent: f32,
+}
+
+// Which of some steps are not taken. `affordable`: whether those of the marginal class are.
+fn declined(plan: Plan, costs: vec4<f32>, classes: vec4<u32>, affordable: bool) -> vec4<bool> {
+    let beyond = select(classes >= vec4(plan.marginal), classes > vec4(plan.marginal), vec4(affordable));
+    return (costs > vec4(0.0)) & beyond;
+}
+
+// What the steps of the marginal class cost together.
+fn marginal_cost(plan: Plan, costs: vec4<f32>, classes: vec4<u32>) -> f32 {
+    let at_margin = (costs > vec4(0.0)) & (classes == vec4(plan.marginal));
+    return dot(select(vec4(0.0), costs, at_margin), vec4(1.0));
+}
+
+fn plan_column(column: u32, reserve: f32) -> Plan {
+    let budget = chunk.budget - reserve;
+    var spent = 0.0;
+    var class_index = 0u;
+    for (; class_index < CLASSES; class_index += 1u) {
+        let more = f32(atomicLoad(&spending[column * CLASSES + class_index])) * (chunk.budget / WHOLE);
+        if spent + more > budget {
+            break;
+        }
+        spent += more;
+    }
+    return Plan(class_index, budget - spent, spent);
+}
