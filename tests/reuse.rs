@@ -12,7 +12,7 @@ use reference::guarantee::{alike_but_for_decisions, calm, try_out};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, grey};
-use renderer::{GpuOptions, Kernel, ParticleSet, Quantity, RenderError, View};
+use renderer::{Bound, GpuOptions, Kernel, ParticleSet, Quantity, RenderError, View};
 
 /// A scene whose particles and quantity the renderer may recognise.
 struct Held {
@@ -110,12 +110,18 @@ const CHANGES: [Change; 11] = [
 ];
 
 /// Changes of what may be saved.
-const SAMPLING_CHANGES: [Change; 5] = [
+const SAMPLING_CHANGES: [Change; 6] = [
     ("a tolerance of 0.001", |held| held.view.sampling.tolerance = Some(0.001)),
     ("a tolerance of 0.01", |held| held.view.sampling.tolerance = Some(0.01)),
     ("a tolerance of 0.1", |held| held.view.sampling.tolerance = Some(0.1)),
     ("full sampling", |held| held.view.sampling.tolerance = None),
     ("super-pixels on or off", |held| held.view.sampling.super_pixels ^= true),
+    ("the other bound", |held| {
+        held.view.sampling.bound = match held.view.sampling.bound {
+            Bound::Difference => Bound::Paper,
+            Bound::Paper => Bound::Difference,
+        };
+    }),
 ];
 
 #[test]

@@ -38,9 +38,9 @@ const PARTICLE_BYTES: u64 = 56;
 const WORD: u64 = 4;
 /// Bytes of a cell in the widest of the arrays over all cells.
 const CELL_STRIDE: u64 = 32;
-/// Bytes of an analysed cell in the widest of its arrays, and in all of them.
+/// Bytes of an analysed cell in the widest of its arrays, and in all of them: those of both bounds.
 const FILLED_STRIDE: u64 = 512;
-const FILLED_BYTES: u64 = 1296;
+const FILLED_BYTES: u64 = 1616;
 
 impl TileLimits {
     /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:

@@ -1,6 +1,35 @@
 //! How densely a picture is sampled: the tolerance, and what may be done within it.
 
-use crate::view::SamplingView;
+use serde::{Deserialize, Serialize};
+
+use crate::view::{SamplingView, ViewError};
+
+/// Which bound of the error decides what may be left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", try_from = "String")]
+pub enum Bound {
+    /// Ours, of the difference from full sampling: what is sampled in full adds nothing to it.
+    #[default]
+    Difference,
+    /// The paper's: the width of the interval in which any sampling of the ray ends (HPG 2016, Sec. 4
+    /// and 5). Strict, it hardly ever allows anything; relaxed, it guarantees nothing. For comparison.
+    Paper,
+}
+
+impl TryFrom<String> for Bound {
+    type Error = ViewError;
+
+    fn try_from(name: String) -> Result<Bound, ViewError> {
+        match name.as_str() {
+            "difference" => Ok(Bound::Difference),
+            "paper" => Ok(Bound::Paper),
+            _ => {
+                let what = format!("unknown bound `{name}`, expected difference or paper");
+                Err(ViewError::new("sampling.bound", what))
+            }
+        }
+    }
+}
 
 /// What of a view decides how densely it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,13 +37,34 @@ pub struct Sampling {
     /// E_I: the largest error of any channel of any pixel against full sampling; `None` for full
     /// sampling.
     pub tolerance: Option<f32>,
+    pub bound: Bound,
     /// E_relax in [0, 1]: the share of a brick's lateral width that is not charged where it is sampled more
     /// coarsely along the ray (HPG 2016, Sec. 5). 0 is a guarantee.
     pub relaxation: f32,
-    /// Bricks may be sampled once a ray for their four slices.
+    /// Bricks may be sampled once a ray for their four slices; by the paper's bound, cells at levels 1 to 4.
     pub z_adaptive: bool,
-    /// Bricks may be shown by one colour.
+    /// Bricks, or by the paper's bound cells, may be shown by one colour.
     pub super_pixels: bool,
+    /// For measurements; no view asks for it.
+    #[doc(hidden)]
+    pub without: Without,
+    /// Analysed even where that hardly pays: for tests.
+    #[doc(hidden)]
+    pub anyway: bool,
+}
+
+/// A part of the method that is left out, to see what it is worth. The tolerance is kept without it.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Without {
+    #[default]
+    Nothing,
+    /// Bricks are bounded by the extremes of their particles.
+    Expansion,
+    /// Any ray may miss the particles of any brick.
+    Coverage,
+    /// Bricks are shown from front to back until the budget is used up.
+    Greed,
 }
 
 /// By how much single precision and the early end of rays (transparency 10⁻⁵) may set two pictures
@@ -23,14 +73,19 @@ const ROUNDING: f32 = 3e-5;
 
 impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
-        let SamplingView { tolerance, relaxation, z_adaptive, super_pixels, .. } = *view;
+        let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, .. } = *view;
         let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
-        Sampling { tolerance, relaxation, z_adaptive, super_pixels }
+        let (without, anyway) = (Without::Nothing, false);
+        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels, without, anyway }
     }
 
-    /// Whether a coarser sampling of bricks may cost less than to show them, for all that it saves.
+    /// Whether a coarser sampling along rays may cost less than to show one colour, for all that it saves.
     pub(crate) fn may_coarsen(&self) -> bool {
-        self.z_adaptive && (self.relaxation > 0.0 || !self.super_pixels)
+        let worthwhile = match self.bound {
+            Bound::Difference => self.relaxation > 0.0 || !self.super_pixels,
+            Bound::Paper => true,
+        };
+        self.z_adaptive && worthwhile
     }
 
     /// What the bounds may charge to a ray; `None` where nothing may be adapted.

@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::kernel::Kernel;
+use crate::sampling::Bound;
 use crate::transfer::{ControlPoint, TransferFunction};
 
 /// The settings of a picture. Every key of the file is optional; unknown keys are errors.
@@ -141,6 +142,7 @@ pub struct SamplingView {
     pub rate: f64,
     pub z_adaptive: bool,
     pub super_pixels: bool,
+    pub bound: Bound,
 }
 
 impl Default for SamplingView {
@@ -151,6 +153,7 @@ impl Default for SamplingView {
             rate: 1.0,
             z_adaptive: true,
             super_pixels: true,
+            bound: Bound::default(),
         }
     }
 }

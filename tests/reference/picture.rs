@@ -8,6 +8,7 @@ use crate::neighbours::Neighbours;
 use crate::particle::Particle;
 use crate::quantity;
 use crate::setup::Setup;
+use crate::slices::CELL_SLABS;
 
 /// Premultiplied linear RGBA, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,38 +27,55 @@ impl From<&renderer::Picture> for Image<f32> {
 
 /// The picture of `particles` with the radii that they have.
 pub fn render(setup: &Setup, particles: &[Particle]) -> Image<f64> {
+    render_at_levels(setup, particles, &|_| 0)
+}
+
+/// The same, where the samples of layer k are of the level that `level_of` gives it.
+pub fn render_at_levels(setup: &Setup, particles: &[Particle], level_of: &LevelOf) -> Image<f64> {
     let particles: Vec<Particle> = particles.iter().copied().filter(Particle::is_sound).collect();
     let neighbours = Neighbours::new(&particles);
     let (width, height) = (setup.camera.width, setup.camera.height);
     let pixels = (0..width * height)
         .into_par_iter()
-        .map(|index| trace(setup, &particles, &neighbours, index % width, index / width))
+        .map(|index| trace(setup, &particles, &neighbours, [index % width, index / width], level_of))
         .collect();
     Image { width, height, pixels }
 }
 
+/// From a layer of cells to the level of its samples, each of which stands for 2^level slabs.
+pub type LevelOf<'a> = dyn Fn(u32) -> u32 + Sync + 'a;
+
 /// The picture of `particles` with radii raised to the sub-pixel floor, which the renderer is to match.
 pub fn render_with_floor(setup: &Setup, particles: &[Particle]) -> Image<f64> {
-    let raised: Vec<Particle> =
-        particles.iter().filter(|p| p.is_sound()).map(|p| floor::raise(p, setup)).collect();
-    render(setup, &raised)
+    render(setup, &raised(setup, particles))
+}
+
+/// Particles with radii raised to the sub-pixel floor.
+pub fn raised(setup: &Setup, particles: &[Particle]) -> Vec<Particle> {
+    particles.iter().filter(|p| p.is_sound()).map(|p| floor::raise(p, setup)).collect()
 }
 
 /// Pixel (x, y).
-fn trace(setup: &Setup, particles: &[Particle], neighbours: &Neighbours, x: u32, y: u32) -> [f64; 4] {
+fn trace(
+    setup: &Setup,
+    particles: &[Particle],
+    neighbours: &Neighbours,
+    [x, y]: [u32; 2],
+    level_of: &LevelOf,
+) -> [f64; 4] {
     let d = setup.camera.ray(x, y);
     let mut ray = Ray::default();
-    for i in 0..setup.slices.count {
-        let s = |offset: f64| setup.slices.depth(f64::from(i) + offset);
+    let mut i = 0;
+    while i < setup.slices.count && !ray.is_opaque() {
+        let slabs = 1 << level_of(i / CELL_SLABS);
+        let s = |share: f64| setup.slices.depth(f64::from(i) + share * f64::from(slabs));
         let point = setup.camera.eye + s(setup.place_in_slab) * d;
         let around = neighbours.around(point).map(|index| &particles[index]);
         if let Some(q) = quantity::at(point, around, setup.kernel) {
             let path = (s(1.0) - s(0.0)) * d.length();
             ray.add(setup.transfer.at(setup.range.normalise(q)), path / setup.reference_length);
         }
-        if ray.is_opaque() {
-            break;
-        }
+        i += slabs;
     }
     ray.pixel()
 }

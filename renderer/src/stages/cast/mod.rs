@@ -2,7 +2,8 @@
 //!
 //! At full sampling a workgroup takes a bundle through its cells. Adaptively, the cells that are to be
 //! sampled are work of their own, independent of each other, so that a workgroup does one thing: it
-//! samples a cell as a whole, or some of its bricks. Then the cells of a bundle are put together.
+//! samples a cell as a whole, or some of its bricks, or more coarsely along the rays. Then the cells of a
+//! bundle are put together.
 
 mod crowds;
 
@@ -14,6 +15,8 @@ use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
+use crate::sampling::Bound;
+use crate::scene::Scene;
 
 const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
 const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
@@ -25,6 +28,7 @@ pub(crate) struct Cast {
     full: Vec<Pipeline>,
     wholes: Vec<Pipeline>,
     parts: Vec<Pipeline>,
+    coarse: Vec<Pipeline>,
     composite: Pipeline,
     pub crowds: Crowds,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
@@ -36,7 +40,7 @@ pub(crate) struct Cast {
 /// How much of the cells of a submission `adapt` left to be sampled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
-    /// Cells to be sampled as a whole, and in parts.
+    /// Cells to be sampled as a whole, and in parts or at a coarser level.
     pub wholes: u64,
     pub parts: u64,
 }
@@ -84,6 +88,11 @@ impl Cast {
             parts: pipelines(
                 "sample_parts",
                 &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
+                &[Read, Write, Write, Read, Read, Read, Read, Read],
+            ),
+            coarse: pipelines(
+                "sample_coarsely",
+                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("coarse.wgsl")],
                 &[Read, Write, Write, Read, Read, Read, Read, Read],
             ),
             composite: pipeline(
@@ -142,13 +151,18 @@ impl Cast {
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
-        kernel: Kernel,
+        scene: &Scene,
         shared: &[wgpu::BindingResource],
         adapt: &Adapt,
         work: Work,
         bundles: u64,
     ) {
-        let kernel = kernel.code() as usize;
+        let kernel = scene.kernel.code() as usize;
+        // What is not sampled as a whole is bricks, or all of a cell at a coarser level.
+        let parts = match scene.sampling.bound {
+            Bound::Difference => &self.parts,
+            Bound::Paper => &self.coarse,
+        };
         let (segments, values) = (&self.segments, &adapt.cell_values);
         let [portions, sums] = self.crowds.buffers();
         let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
@@ -156,7 +170,7 @@ impl Cast {
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
         sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
-        sample(&self.parts[kernel], pass, &adapt.parts, work.parts);
+        sample(&parts[kernel], pass, &adapt.parts, work.parts);
         let cells = with(
             shared,
             &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],

@@ -10,7 +10,8 @@ struct Chunk {
     budget: f32,
     // E_relax.
     relaxation: f32,
-    // 1 where bricks may be shown unsampled, and be sampled at level 2.
+    // 1 where bricks, or by the paper's bound cells, may be shown unsampled, and be sampled more coarsely
+    // along rays.
     super_pixels: u32,
     z_adaptive: u32,
     padding: u32,

@@ -37,6 +37,7 @@ pub(crate) struct FrameUniform {
     pub sample_offset: [f32; CELL_SLICES as usize],
     pub coarse_offset: [f32; 4],
     pub slab_depth: [f32; CELL_SLICES as usize],
+    pub slab_edge: [f32; CELL_SLICES as usize + 4],
 }
 
 impl FrameUniform {
@@ -78,6 +79,7 @@ impl FrameUniform {
             slab_depth: std::array::from_fn(|k| {
                 ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
             }),
+            slab_edge: std::array::from_fn(|k| (from_middle(k as f64) * step).exp_m1() as f32),
         }
     }
 }
@@ -160,7 +162,8 @@ mod tests {
             padding,
             sample_offset,
             coarse_offset,
-            slab_depth
+            slab_depth,
+            slab_edge
         );
         check_layout!(
             FRAME_WGSL,

@@ -32,6 +32,9 @@ struct Frame {
     coarse_offset: vec4<f32>,
     // Depth of the cell's 16 slabs, in units of the depth of the cell's middle.
     slab_depth: array<vec4<f32>, 4>,
+    // Depth of the 17 edges of these slabs, and of three more behind, relative to the middle like the
+    // samples: samples of coarser levels lie on edges.
+    slab_edge: array<vec4<f32>, 5>,
 }
 
 // A box of cells that is built and cast at once.

@@ -1,0 +1,102 @@
+//! The bound and the choice of the paper (HPG 2016, Sec. 4 and 5), as a peer of ours and to be measured
+//! against it: intervals of irradiance and transparency of each cell at the sampling levels 0 to 4,
+//! composited along the rays of a bundle, whose width is to stay below the tolerance; super-pixels; and
+//! the relaxation of the lower bounds.
+//!
+//! Two things differ. No surface detector: a slab in which some ray may miss all particles may have no
+//! opacity, which is a bound where the paper leaves cells out of account. And the fourth channel is
+//! bounded too, as the opacity that it is.
+//!
+//! Extremes of the quantity in each slab, and its coverage, stay until the grid or the quantity changes;
+//! intervals and choices are made anew for each picture.
+
+use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, TRANSFER_WGSL};
+use super::Adapt;
+use crate::error::RenderError;
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+
+const SOURCES: [&str; 7] = [
+    FRAME_WGSL,
+    BUNDLE_WGSL,
+    TRANSFER_WGSL,
+    HULL_WGSL,
+    include_str!("slabs.wgsl"),
+    include_str!("intervals.wgsl"),
+    include_str!("choice.wgsl"),
+];
+
+/// `CellBounds` of `choice.wgsl`.
+#[repr(C)]
+struct CellBounds {
+    values: [[f32; 2]; 16],
+    levels: [[f32; 8]; 5],
+    front: [f32; 8],
+}
+
+pub(super) struct Paper {
+    pipeline: Pipeline,
+    /// [`CellBounds`] of each slot.
+    bounds: Buffer,
+}
+
+impl Paper {
+    pub(super) fn new(gpu: &Gpu) -> Paper {
+        Paper {
+            pipeline: Pipeline::new(
+                gpu,
+                &PipelineDescription {
+                    label: "choose_by_intervals",
+                    sources: &SOURCES,
+                    entry_point: "choose_by_intervals",
+                    constants: &[],
+                    bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 9]].concat(),
+                },
+            ),
+            bounds: Buffer::storage(gpu, "intervals of cells", size_of::<CellBounds>() as u64),
+        }
+    }
+
+    /// Makes room for `filled` cells.
+    pub(super) fn reserve(&mut self, gpu: &Gpu, filled: u64) -> Result<(), RenderError> {
+        self.bounds.reserve(gpu, filled)
+    }
+
+    /// Records the analysis of `bundles` bundles, which fills the same buffers of `adapt` as its own.
+    pub(super) fn record(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        adapt: &Adapt,
+        shared: &[wgpu::BindingResource],
+        bundles: u64,
+    ) {
+        let own = [
+            &adapt.cell_values,
+            &adapt.slots_taken,
+            &self.bounds,
+            &adapt.shows,
+            &adapt.bundle_entries,
+            &adapt.sampled,
+            &adapt.wholes,
+            &adapt.parts,
+            &adapt.work,
+        ]
+        .map(Buffer::binding);
+        self.pipeline.dispatch(gpu, pass, &[shared, &own].concat(), bundles);
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.bounds.bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::layout::check_layout;
+
+    #[test]
+    fn bounds_lie_as_the_shader_expects() {
+        check_layout!(&SOURCES.concat(), "CellBounds", CellBounds, values, levels, front);
+    }
+}
