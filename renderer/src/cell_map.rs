@@ -195,6 +195,8 @@ pub struct CellDetail {
     pub values: KnownValues,
     /// Where they are known.
     pub bricks: Option<Box<CellBricks>>,
+    /// With the bricks: colour and opacity that stand for each column where none of it is sampled.
+    pub shown: Option<Box<[[f32; 4]; COLUMNS]>>,
 }
 
 impl CellDetail {

@@ -14,6 +14,7 @@ use crate::error::RenderError;
 use crate::picture::Picture;
 use crate::plan::{self, Tile};
 use crate::renderer::{Progress, Renderer};
+use crate::sampling::Bound;
 use crate::scene::Scene;
 use crate::stages::adapt::entries::{
     BundleEntry, COVERED, CellEntry, ColumnValues, FIRST_SLOT, Offers, WHOLE_KNOWN,
@@ -166,27 +167,32 @@ impl Renderer {
         read.append_to(tile, &mut summary);
         (detail.end_layer, detail.charged) = (summary.end_layer, summary.charged);
 
-        let slots: Vec<u32> = entries.iter().map(|entry| entry.slot).filter(|s| *s >= FIRST_SLOT).collect();
-        let mut bricks = self.read_bricks(&slots)?.into_iter();
+        if tile.first_layer == 0 && !self.is_adapted(job, tile) {
+            detail.budget = None;
+        }
+        // The paper's bound has no bricks.
+        let has_bricks = |slot: u32| slot >= FIRST_SLOT && job.scene.sampling.bound == Bound::Difference;
+        let slots: Vec<u32> = entries.iter().map(|entry| entry.slot).filter(|s| has_bricks(*s)).collect();
+        let mut bricks = self.read_bricks(&slots)?.into_iter().peekable();
         for (number, cell) in summary.cells.into_iter().enumerate() {
             let entry = entries.get(number);
             let depth = |layer: u32| job.slices.depth(f64::from(16 * layer));
+            let has_bricks = entry.is_some_and(|entry| has_bricks(entry.slot));
+            let (bricks, shown) = bricks.next_if(|_| has_bricks).unzip();
             let known = entry.filter(|entry| entry.slot >= WHOLE_KNOWN);
             detail.cells.push(CellDetail {
                 depths: [depth(cell.layer), depth(cell.layer + 1)],
                 cell,
                 values: known.map_or(KnownValues::Unknown, |entry| KnownValues::of(entry.values)),
-                bricks: entry
-                    .filter(|entry| entry.slot >= FIRST_SLOT)
-                    .and_then(|_| bricks.next())
-                    .map(Box::new),
+                bricks,
+                shown,
             });
         }
         Ok(())
     }
 
-    /// Reads the bricks of cells with these slots.
-    fn read_bricks(&self, slots: &[u32]) -> Result<Vec<CellBricks>, RenderError> {
+    /// Reads the bricks of cells with these slots, and what stands for their columns.
+    fn read_bricks(&self, slots: &[u32]) -> Result<Vec<ReadBricks>, RenderError> {
         let places: Vec<Range<u64>> = slots
             .iter()
             .map(|slot| u64::from(slot - FIRST_SLOT) * COLUMNS as u64)
@@ -198,9 +204,11 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let values = self.adapt.bricks.read_ranges(&self.gpu, &mut encoder, &places);
         let offers = self.adapt.offers.read_ranges(&self.gpu, &mut encoder, &places);
+        let shows = self.adapt.shows.read_ranges(&self.gpu, &mut encoder, &places);
         self.gpu.queue.submit([encoder.finish()]);
         let values: Vec<ColumnValues> = values.take(&self.gpu)?;
         let offers: Vec<Offers> = offers.take(&self.gpu)?;
+        let shows: Vec<[f32; 4]> = shows.take(&self.gpu)?;
         let column = |place: usize| {
             std::array::from_fn(|brick| Brick {
                 values: KnownValues::of([values[place].low[brick], values[place].high[brick]]),
@@ -208,10 +216,17 @@ impl Renderer {
                 coarse_charge: offers[place].to_coarsen(brick),
             })
         };
-        let cell = |number: usize| std::array::from_fn(|c| column(number * COLUMNS + c));
+        let cell = |number: usize| {
+            let bricks = std::array::from_fn(|c| column(number * COLUMNS + c));
+            let shown = std::array::from_fn(|c| shows[number * COLUMNS + c]);
+            (Box::new(bricks), Box::new(shown))
+        };
         Ok((0..slots.len()).map(cell).collect())
     }
 }
+
+/// The bricks of a cell, and what stands for each of its columns where none is sampled.
+type ReadBricks = (Box<CellBricks>, Box<[[f32; 4]; COLUMNS]>);
 
 /// A bundle of which nothing is known yet.
 fn blank(job: &Job, bundle: [u32; 2]) -> BundleDetail {
