@@ -147,9 +147,9 @@ fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front
 }
 
 // Takes the offers that the plan of the column affords, and files the cells; returns what the marginal
-// ones would cost in all.
+// ones cost in all.
 fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
-    var used = 0.0;
+    var taken = 0.0;
     var walk = start_of(place.index);
     while walk.layer < end_layer {
         let cell = next_group(&walk, place, end_layer);
@@ -166,13 +166,13 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
             marginal_cost(plan, mine.first, classes.first) + marginal_cost(plan, mine.second, classes.second);
         clear_masks(lane);
         workgroupBarrier();
-        var with_mine = used;
+        var affordable = false;
         for (var i = 0u; i < GROUP_CELLS; i += 1u) {
-            let more = marginal[i * COLUMNS + place.column];
-            with_mine += select(0.0, more, i <= place.number);
-            used += more;
+            let with_it = (taken + marginal[i * COLUMNS + place.column]) * (1.0 + ROUNDING);
+            let fits = with_it <= plan.left;
+            taken = select(taken, with_it, fits);
+            affordable = select(affordable, fits, i == place.number);
         }
-        let affordable = with_mine * (1.0 + ROUNDING) <= plan.left;
         let fine = vec4(is_crowd(cell)) | declined(plan, mine.first, classes.first, affordable);
         let coarse = !fine & declined(plan, mine.second, classes.second, affordable);
         note_column(place.number, place.column, fine, coarse, seen, mine.first > vec4(0.0));
@@ -182,7 +182,7 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
         }
         workgroupBarrier();
     }
-    return used;
+    return taken;
 }
 
 @compute @workgroup_size(LANES)
@@ -201,9 +201,9 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     storageBarrier();
     workgroupBarrier();
     let plan = plan_column(place.column, front.reserve);
-    let used = take_offers(place, end_layer, plan, lane);
+    let taken = take_offers(place, end_layer, plan, lane);
     if place.number == 0u {
-        let charged = plan.spent + min(used, plan.left) + front.reserve;
+        let charged = plan.spent + taken + front.reserve;
         atomicMax(&counters[LARGEST_CHARGE], bitcast<u32>(charged));
         bundle_entries[index].charged[place.column] = charged;
     }

@@ -132,7 +132,7 @@ fn spend(column: u32, cost: f32, class_index: u32) {
 }
 
 // Which steps a column takes: those of the classes before `marginal`, and those of that class, from
-// front to back, until `left` is used up.
+// front to back, that still fit into `left`.
 struct Plan {
     marginal: u32,
     left: f32,
