@@ -109,6 +109,9 @@ fn wrong_arguments_give_status_2() {
         &["render", "one.vtk", "--out", "a.png", "--frames", "5..2"],
         &["render", "one.vtk", "--out", "a.png", "--frames", "0..2"],
         &["render", "one.vtk", "--out", "a.jpg"],
+        &["render", "one.vtk", "--out", "a.png", "--overlay", "b.exr"],
+        &["render", "one.vtk", "--out", "a.png", "--overlay", "a.png"],
+        &["render", "run", "--out", "pictures", "--overlay", "b.png"],
         &["render", "run", "--out", "a.png"],
         &["bench", "one.vtk", "--tolerances", "0.1,2"],
         &["bench", "one.vtk", "--rounds", "0"],
@@ -222,6 +225,45 @@ fn a_frame_becomes_a_picture_of_either_format() {
     assert!(other.error().starts_with("a.exr: differs by "), "{}", other.err);
     assert!(other.out.starts_with("max   0."), "{}", other.out);
     assert_eq!(compare("c.exr", &[]).status, 0);
+}
+
+#[test]
+fn the_classes_of_the_cells_are_a_picture_of_their_own() {
+    let folder = folder();
+    let render = |out: &str, more: &[&str]| {
+        let arguments = ["render", "one.vtk", "--size", "150x120", "--tolerance", "0.01", "--out", out];
+        let outcome = sphcast(folder.path(), &[&arguments, more].concat());
+        assert_eq!(outcome.status, 0, "{}", outcome.err);
+        sphcast::image_file::read(&folder.path().join(out)).unwrap()
+    };
+    let plain = render("a.png", &[]);
+    let beside = render("b.png", &["--overlay", "cells.png", "--stats", "b.json"]);
+    assert_eq!(plain, beside, "the picture itself is the same");
+    let cells = sphcast::image_file::read(&folder.path().join("cells.png")).unwrap();
+    assert_eq!((cells.width, cells.height), (150, 120));
+    // Covered where there are particles, and as it was elsewhere.
+    let seen = plain.data.iter().filter(|pixel| pixel[3] > 0.1).count();
+    let pairs = || plain.data.iter().zip(&cells.data);
+    let covered = pairs().filter(|(before, after)| before != after && after[3] > 0.6).count();
+    let untouched = pairs().filter(|(before, after)| before == after).count();
+    assert!(covered > seen / 2 && untouched > 100, "{seen} seen, {covered} covered, {untouched} untouched");
+}
+
+#[test]
+fn a_run_has_an_overlay_for_each_of_its_pictures() {
+    let folder = folder();
+    let arguments = ["render", "run", "--size", "32x32", "--out", "out", "--overlay", "cells-{:02}.png"];
+    let outcome = sphcast(folder.path(), &arguments);
+    assert_eq!(outcome.status, 1, "a frame of it is bad: {}", outcome.err);
+    assert_eq!(files_in(&folder.path().join("out")), ["frame-0000.png", "frame-0002.png"]);
+    let here = files_in(folder.path());
+    assert_eq!(here, ["cells-00.png", "cells-02.png", "one.vtk", "out", "run"]);
+    let nowhere = sphcast(
+        folder.path(),
+        &["render", "one.vtk", "--size", "32x32", "--out", "c.png", "--overlay", "no/c.png"],
+    );
+    assert_eq!(nowhere.status, 1);
+    assert!(nowhere.error().starts_with("no/c.png: cannot be written"), "{}", nowhere.err);
 }
 
 #[test]

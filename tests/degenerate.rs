@@ -4,25 +4,20 @@ use glam::DVec3;
 use reference::Particle;
 use reference::compare::compare;
 use reference::device::{assert_alike, picture, prepare, render, shared};
+use reference::extremes;
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, grey, plain_view};
-use renderer::{CameraView, ControlPoint};
 
-/// A scene of `particles` in [`plain_view`] at 33 × 21.
+const SIZE: [u32; 2] = [33, 21];
+
+/// A scene of `particles` in [`plain_view`].
 fn scene(name: &str, particles: Vec<Particle>) -> Scene {
-    Scene { name: name.to_owned(), particles, view: plain_view(33, 21) }
+    Scene { name: name.to_owned(), particles, view: plain_view(SIZE[0], SIZE[1]) }
 }
 
 fn particle(position: DVec3, support_radius: f64, quantity: f64) -> Particle {
     Particle { position, support_radius, volume: 1.0, quantity }
-}
-
-fn with_camera(name: &str, change: impl Fn(&mut CameraView)) -> Scene {
-    let mut scene = scenes::plain(30, 33, 21);
-    scene.name = name.to_owned();
-    change(scene.view.camera.as_mut().expect("plain scenes have a camera"));
-    scene
 }
 
 fn assert_empty(scene: &Scene) {
@@ -118,7 +113,7 @@ fn radii_over_six_decades() {
 /// The plain scene behind `count` clear particles, all of whose depths are between 1.2 and 2.1.
 fn veiled(count: usize, rate: f64) -> [Scene; 2] {
     let mut random = Random::new(36);
-    let mut bare = with_camera("bare", |camera| camera.fov_y_degrees = 10.0);
+    let mut bare = extremes::with_camera("bare", SIZE, |camera| camera.fov_y_degrees = 10.0);
     (bare.view.image.width, bare.view.image.height) = (8, 8);
     bare.view.sampling.rate = rate;
     bare.view.transfer.points = vec![grey(0.0, 0.0, 0.0), grey(0.1, 0.0, 0.0), grey(1.0, 0.8, 0.6)];
@@ -204,131 +199,49 @@ fn unsound_particles_are_left_out_and_counted() {
 
 #[test]
 fn quantities_at_the_edge_of_their_numbers() {
-    let base = scenes::plain(36, 33, 21);
-    let with = |name: &str, range: [f64; 2], quantity: &dyn Fn(f64) -> f64| {
-        let mut scene = base.clone();
-        scene.name = name.to_owned();
-        scene.view.quantity.range = Some(range);
-        scene.particles.iter_mut().for_each(|particle| particle.quantity = quantity(particle.quantity));
-        scene
-    };
-    assert_alike([
-        with("constant, range of no width", [0.7, 0.7], &|_| 0.7),
-        with("constant 1e38", [0.0, 2e38], &|_| 1e38),
-        with("up to 3e38", [0.0, 3e38], &|q| 3e38 * q),
-        with("either sign of 3e38", [-3e38, 3e38], &|q| 6e38 * (q - 0.5)),
-        with("denormal in f32", [0.0, 1e-40], &|q| 1e-40 * q),
-        with("constant and denormal", [0.0, 1e-310], &|_| 5e-311),
-        with("a small difference of large values", [1e6, 1e6 + 0.01], &|q| 1e6 + 0.01 * q),
-        with("all below the range", [5.0, 6.0], &|q| q),
-        with("all above the range", [-6.0, -5.0], &|q| q),
-    ]);
+    assert_alike(extremes::quantities_at_the_edge_of_their_numbers(SIZE));
 }
 
 #[test]
 fn outliers_of_the_quantity_do_not_drown_their_neighbours() {
-    let mut scene = scenes::plain(41, 33, 21);
-    scene.name = "outliers far beyond the range".to_owned();
-    scene.view.quantity.range = Some([0.0, 1.0]);
-    for (index, particle) in scene.particles.iter_mut().enumerate().filter(|(index, _)| index % 7 == 0) {
-        particle.quantity = if index % 2 == 0 { 1e12 } else { -1e12 };
-    }
-    assert_alike([scene]);
+    assert_alike([extremes::with_outliers(1e12, SIZE)]);
 }
 
 #[test]
 fn a_range_of_no_width_is_a_threshold() {
-    let mut scene = scenes::plain(36, 33, 21);
-    scene.name = "range of no width in the middle of the quantity".to_owned();
-    scene.view.quantity.range = Some([0.5, 0.5]);
-    assert_alike([scene]);
+    let name = "range of no width in the middle of the quantity";
+    assert_alike([extremes::with_quantity(name, SIZE, [0.5, 0.5], |q| q)]);
 }
 
 #[test]
 fn transfer_functions_at_their_ends() {
-    let base = scenes::plain(37, 33, 21);
-    let with = |name: &str, points: Vec<ControlPoint>| {
-        let mut scene = base.clone();
-        (scene.name, scene.view.transfer.points) = (name.to_owned(), points);
-        scene
-    };
-    let clear = with("clear", vec![grey(0.0, 1.0, 0.0), grey(1.0, 0.5, 0.0)]);
-    assert_empty(&clear);
-    assert_alike([
-        with("opaque", vec![grey(0.0, 0.1, 1.0), grey(1.0, 0.9, 1.0)]),
-        with("clear to opaque", vec![grey(0.0, 0.1, 0.0), grey(1.0, 0.9, 1.0)]),
-        with("opaque above a step", vec![grey(0.0, 0.1, 0.0), grey(0.55, 0.3, 0.0), grey(0.55, 0.9, 1.0)]),
-        with("one point", vec![grey(0.3, 0.6, 0.2)]),
-        with("all but opaque", vec![grey(0.0, 0.5, 0.999_999), grey(1.0, 0.5, 0.999_999)]),
-        with("all but clear", vec![grey(0.0, 0.5, 1e-6), grey(1.0, 1.0, 1e-6)]),
-        with("black", vec![grey(0.0, 0.0, 0.4)]),
-    ]);
+    assert_empty(&extremes::clear(SIZE));
+    assert_alike(extremes::transfer_functions_at_their_ends(SIZE));
 }
 
 #[test]
 fn reference_lengths_far_from_the_scene() {
-    for length in [1e-6, 1e6] {
-        let mut scene = scenes::plain(38, 33, 21);
-        scene.name = format!("reference length {length:e}");
-        scene.view.transfer.reference_length = Some(length);
-        assert_alike([scene]);
-    }
+    assert_alike([1e-6, 1e6].map(|length| extremes::with_reference_length(length, SIZE)));
 }
 
 #[test]
 fn depths_over_six_decades() {
-    assert_alike([
-        with_camera("from inside, 1e-3 to 1e3", |camera| {
-            (camera.eye, camera.near, camera.far) = (DVec3::new(0.1, 0.2, 0.3), Some(1e-3), Some(1e3));
-        }),
-        with_camera("a thousandth of a radius deep", |camera| {
-            (camera.near, camera.far) = (Some(4.0), Some(4.0005));
-        }),
-    ]);
+    assert_alike(extremes::depths_over_six_decades(SIZE));
 }
 
 #[test]
 fn fields_of_view_at_their_ends() {
-    assert_alike([
-        with_camera("1 degree", |camera| {
-            camera.eye = DVec3::new(0.0, 30.0, 110.0);
-            camera.fov_y_degrees = 1.0;
-            (camera.near, camera.far) = (Some(112.0), Some(116.0));
-        }),
-        with_camera("170 degrees", |camera| {
-            camera.eye = DVec3::new(0.2, 0.1, 1.3);
-            camera.fov_y_degrees = 170.0;
-            (camera.near, camera.far) = (Some(0.05), Some(3.0));
-        }),
-    ]);
-}
-
-/// The plain scene from `distance` radii away, with a field of view that it fills.
-fn through_a_long_lens(distance: f64) -> Scene {
-    let mut scene = scenes::plain(42, 33, 21);
-    scene.name = format!("{distance} radii away");
-    let depth = distance * scene.particles[0].support_radius;
-    let camera = scene.view.camera.as_mut().expect("plain scenes have a camera");
-    camera.eye = DVec3::new(0.0, 0.0, depth);
-    camera.fov_y_degrees = 2.0 * (1.3 / depth).atan().to_degrees();
-    (camera.near, camera.far) = (Some(depth - 1.6), Some(depth + 1.6));
-    scene
+    assert_alike(extremes::fields_of_view(SIZE));
 }
 
 #[test]
 fn long_lenses() {
-    assert_alike([30.0, 100.0].map(through_a_long_lens));
-}
-
-#[test]
-fn very_long_lenses() {
-    assert_alike([400.0, 1e3, 1e4, 1e5].map(through_a_long_lens));
+    assert_alike([30.0, 100.0, 400.0, 1e3, 1e4, 1e5].map(|far| extremes::through_a_long_lens(far, SIZE)));
 }
 
 #[test]
 fn sizes_of_the_image() {
-    let scenes = [[1, 1], [7, 5], [1, 40], [40, 1], [8, 8], [9, 17]].map(|[w, h]| scenes::plain(39, w, h));
-    assert_alike(scenes);
+    assert_alike(extremes::sizes_of_the_image());
     // Large enough to show wrong strides; few slices keep the twin cheap.
     let mut large = scenes::plain(40, 333, 217);
     large.view.sampling.rate = 0.1;
@@ -337,20 +250,16 @@ fn sizes_of_the_image() {
 
 #[test]
 fn rates_of_sampling() {
-    let scenes = [0.01, 0.3, 2.0, 8.0].map(|rate| {
-        let mut scene = scenes::plain(41, 20, 13);
-        scene.name = format!("rate {rate}");
-        scene.view.sampling.rate = rate;
-        scene
-    });
-    assert_alike(scenes);
+    assert_alike([0.01, 0.3, 2.0, 8.0].map(|rate| extremes::at_rate(rate, [20, 13])));
 }
 
 #[test]
 fn a_slanted_or_long_up_vector() {
     assert_alike([
-        with_camera("slanted up", |camera| camera.up = DVec3::new(0.9, 0.1, 5.0)),
-        with_camera("long up", |camera| camera.up = DVec3::new(0.0, -1e9, 0.0)),
-        with_camera("nearby target", |camera| camera.target = camera.eye + 1e-9 * DVec3::NEG_Z),
+        extremes::with_camera("slanted up", SIZE, |camera| camera.up = DVec3::new(0.9, 0.1, 5.0)),
+        extremes::with_camera("long up", SIZE, |camera| camera.up = DVec3::new(0.0, -1e9, 0.0)),
+        extremes::with_camera("nearby target", SIZE, |camera| {
+            camera.target = camera.eye + 1e-9 * DVec3::NEG_Z
+        }),
     ]);
 }

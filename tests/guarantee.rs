@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use reference::device::shared;
-use reference::guarantee::{Trial, calm, case, hard_cases, try_out};
+use reference::guarantee::{ROUNDING, Trial, calm, case, hard_cases, try_out};
 use reference::scenes::Scene;
 use renderer::{CellClasses, Kernel};
 
@@ -137,6 +137,22 @@ fn relaxation_samples_more_coarsely() {
         try_out(&mut renderer, &scene).adaptive.stats.evaluations.done
     });
     assert!(done[0] > done[1] && done[1] > done[2], "{done:?} evaluations");
+}
+
+#[test]
+fn tolerances_within_rounding_are_full_sampling_and_others_are_not() {
+    let trial = |tolerance: f64| {
+        let mut scene = calm(24, 97, 72);
+        scene.view.sampling.tolerance = Some(tolerance);
+        try_out(&mut shared(), &scene)
+    };
+    for tolerance in [1e-7, 2.9e-5, ROUNDING] {
+        let Trial { full, adaptive, .. } = trial(tolerance);
+        assert_eq!(full.pixels, adaptive.pixels, "{tolerance}");
+        assert_eq!(full.stats.evaluations, adaptive.stats.evaluations, "{tolerance}");
+    }
+    let Trial { adaptive, .. } = trial(3.1e-5);
+    assert!(adaptive.stats.evaluations.bounds > 0 && adaptive.stats.predicted_error < 3.1e-5);
 }
 
 #[test]

@@ -5,29 +5,20 @@ use glam::DVec3;
 use reference::Particle;
 use reference::compare::compare;
 use reference::device::{open, picture, shared};
+use reference::extremes;
 use reference::guarantee::{alike_but_for_decisions, calm, try_out};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey, plain_view};
-use renderer::{CameraView, ControlPoint, GpuOptions, Kernel, Renderer};
+use renderer::{ControlPoint, GpuOptions, Kernel, Renderer};
 
+const SIZE: [u32; 2] = [57, 43];
 const TOLERANCES: [f64; 3] = [1e-3, 1e-2, 0.1];
 
 fn with_tolerance(scene: &Scene, tolerance: f64) -> Scene {
     let mut scene = scene.clone();
     scene.view.sampling.tolerance = Some(tolerance);
     scene.name += &format!(", tolerance {tolerance}");
-    scene
-}
-
-fn named(name: impl Into<String>, mut scene: Scene) -> Scene {
-    scene.name = name.into();
-    scene
-}
-
-fn with_camera(name: &str, change: impl Fn(&mut CameraView)) -> Scene {
-    let mut scene = named(name, scenes::plain(30, 57, 43));
-    change(scene.view.camera.as_mut().expect("plain scenes have a camera"));
     scene
 }
 
@@ -44,70 +35,29 @@ fn assert_kept(scenes: impl IntoIterator<Item = Scene>) {
 
 #[test]
 fn depths_over_six_decades() {
-    assert_kept([
-        with_camera("from inside, 1e-3 to 1e3", |camera| {
-            (camera.eye, camera.near, camera.far) = (DVec3::new(0.1, 0.2, 0.3), Some(1e-3), Some(1e3));
-        }),
-        with_camera("from outside, 1e-3 to 1e3", |camera| {
-            (camera.near, camera.far) = (Some(1e-3), Some(1e3));
-        }),
-        with_camera("a thousandth of a radius deep", |camera| {
-            (camera.near, camera.far) = (Some(4.0), Some(4.0005));
-        }),
-    ]);
+    assert_kept(extremes::depths_over_six_decades(SIZE));
 }
 
 #[test]
 fn fields_of_view_at_their_ends() {
-    assert_kept([
-        with_camera("1 degree", |camera| {
-            camera.eye = DVec3::new(0.0, 30.0, 110.0);
-            camera.fov_y_degrees = 1.0;
-            (camera.near, camera.far) = (Some(112.0), Some(116.0));
-        }),
-        with_camera("170 degrees", |camera| {
-            camera.eye = DVec3::new(0.2, 0.1, 1.3);
-            camera.fov_y_degrees = 170.0;
-            (camera.near, camera.far) = (Some(0.05), Some(3.0));
-        }),
-        with_camera("170 degrees, from inside", |camera| {
-            camera.eye = DVec3::new(0.2, 0.1, 0.3);
-            camera.fov_y_degrees = 170.0;
-            (camera.near, camera.far) = (Some(0.01), Some(3.0));
-        }),
-    ]);
-}
-
-/// The plain scene from `distance` radii away, with a field of view that it fills.
-fn through_a_long_lens(distance: f64) -> Scene {
-    let mut scene = named(format!("{distance} radii away"), scenes::plain(42, 57, 43));
-    let depth = distance * scene.particles[0].support_radius;
-    let camera = scene.view.camera.as_mut().expect("plain scenes have a camera");
-    camera.eye = DVec3::new(0.0, 0.0, depth);
-    camera.fov_y_degrees = 2.0 * (1.3 / depth).atan().to_degrees();
-    (camera.near, camera.far) = (Some(depth - 1.6), Some(depth + 1.6));
-    scene
+    assert_kept(extremes::fields_of_view(SIZE));
 }
 
 #[test]
 fn long_lenses() {
-    assert_kept([30.0, 400.0, 1e4, 1e5].map(through_a_long_lens));
+    assert_kept([30.0, 400.0, 1e4, 1e5].map(|distance| extremes::through_a_long_lens(distance, SIZE)));
 }
 
 #[test]
 fn reference_lengths_far_from_the_scene() {
-    assert_kept([1e-6, 1e-3, 1e3, 1e6].map(|length| {
-        let mut scene = named(format!("reference length {length:e}"), scenes::plain(38, 57, 43));
-        scene.view.transfer.reference_length = Some(length);
-        scene
-    }));
+    assert_kept([1e-6, 1e-3, 1e3, 1e6].map(|length| extremes::with_reference_length(length, SIZE)));
 }
 
 /// `count` particles at one point amid others, with quantities around the middle.
 fn heap(count: usize, spread: f64, transfer: &[ControlPoint]) -> Scene {
     let mut random = Random::new(31);
     let name = format!("a heap, {spread} apart, {} nodes", transfer.len());
-    let mut scene = named(name, scenes::plain(31, 24, 17));
+    let mut scene = extremes::plain(name, 31, [24, 17]);
     let position = DVec3::new(0.1, 0.2, 0.3);
     let heap = Particle { position, support_radius: 0.3, volume: 1.0, quantity: 0.5 };
     let some = |_| Particle { quantity: 0.5 + spread * (random.unit() - 0.5), ..heap };
@@ -130,43 +80,24 @@ fn very_many_particles_at_one_point() {
 
 #[test]
 fn quantities_at_the_edge_of_their_numbers() {
-    let with = |name: &str, range: [f64; 2], quantity: &dyn Fn(f64) -> f64| {
-        let mut scene = named(name, scenes::plain(36, 57, 43));
-        scene.view.quantity.range = Some(range);
-        scene.particles.iter_mut().for_each(|particle| particle.quantity = quantity(particle.quantity));
-        scene
-    };
-    assert_kept([
-        with("constant, range of no width", [0.7, 0.7], &|_| 0.7),
-        with("constant 1e38", [0.0, 2e38], &|_| 1e38),
-        with("up to 3e38", [0.0, 3e38], &|q| 3e38 * q),
-        with("either sign of 3e38", [-3e38, 3e38], &|q| 6e38 * (q - 0.5)),
-        with("3e38 with a range of 1", [0.0, 1.0], &|q| 6e38 * (q - 0.5)),
-        with("1e30 with a range of 1", [0.0, 1.0], &|q| 1e30 * (q - 0.5)),
-        with("denormal in f32", [0.0, 1e-40], &|q| 1e-40 * q),
-        with("constant and denormal", [0.0, 1e-310], &|_| 5e-311),
-        with("a small difference of large values", [1e6, 1e6 + 0.01], &|q| 1e6 + 0.01 * q),
-        with("all below the range", [5.0, 6.0], &|q| q),
-        with("all above the range", [-6.0, -5.0], &|q| q),
-    ]);
+    assert_kept(extremes::quantities_at_the_edge_of_their_numbers(SIZE));
+    // Far outside their range.
+    assert_kept([3e38, 1e30].map(|far| {
+        let name = format!("{far:e} with a range of 1");
+        extremes::with_quantity(&name, SIZE, [0.0, 1.0], |q| 2.0 * far * (q - 0.5))
+    }));
 }
 
 #[test]
 fn outliers_of_the_quantity() {
-    assert_kept([1e3, 1e6, 1e12, 1e30].map(|far| {
-        let mut scene = named(format!("outliers of {far}"), scenes::plain(41, 57, 43));
-        for (index, particle) in scene.particles.iter_mut().enumerate().filter(|(index, _)| index % 7 == 0) {
-            particle.quantity = if index % 2 == 0 { far } else { -far };
-        }
-        scene
-    }));
+    assert_kept([1e3, 1e6, 1e12, 1e30].map(|far| extremes::with_outliers(far, SIZE)));
 }
 
 #[test]
 fn volumes_over_many_decades() {
     assert_kept([1e6, 1e12].map(|range| {
         let mut random = Random::new(43);
-        let mut scene = named(format!("volumes over 1:{range}"), scenes::plain(43, 57, 43));
+        let mut scene = extremes::plain(format!("volumes over 1:{range}"), 43, SIZE);
         for particle in &mut scene.particles {
             particle.volume = random.log_between(1.0, range);
         }
@@ -176,26 +107,13 @@ fn volumes_over_many_decades() {
 
 #[test]
 fn transfer_functions_at_their_ends() {
-    let with = |name: &str, points: Vec<ControlPoint>| {
-        let mut scene = named(name, scenes::plain(37, 57, 43));
-        scene.view.transfer.points = points;
-        scene
-    };
-    assert_kept([
-        with("clear", vec![grey(0.0, 1.0, 0.0), grey(1.0, 0.5, 0.0)]),
-        with("opaque", vec![grey(0.0, 0.1, 1.0), grey(1.0, 0.9, 1.0)]),
-        with("clear to opaque", vec![grey(0.0, 0.1, 0.0), grey(1.0, 0.9, 1.0)]),
-        with("opaque above a step", vec![grey(0.0, 0.1, 0.0), grey(0.55, 0.3, 0.0), grey(0.55, 0.9, 1.0)]),
-        with("one point", vec![grey(0.3, 0.6, 0.2)]),
-        with("all but opaque", vec![grey(0.0, 0.5, 0.999_999), grey(1.0, 0.5, 0.999_999)]),
-        with("all but clear", vec![grey(0.0, 0.5, 1e-6), grey(1.0, 1.0, 1e-6)]),
-        with("black", vec![grey(0.0, 0.0, 0.4)]),
-    ]);
+    assert_kept([extremes::clear(SIZE)]);
+    assert_kept(extremes::transfer_functions_at_their_ends(SIZE));
 }
 
 #[test]
 fn sizes_of_the_image() {
-    assert_kept([[1, 1], [7, 5], [1, 40], [40, 1], [8, 8], [9, 17]].map(|[w, h]| scenes::plain(39, w, h)));
+    assert_kept(extremes::sizes_of_the_image());
     let mut large = scenes::plain(40, 333, 217);
     large.view.sampling.rate = 0.5;
     assert_kept([large]);
@@ -203,11 +121,7 @@ fn sizes_of_the_image() {
 
 #[test]
 fn rates_of_sampling() {
-    assert_kept([0.01, 0.3, 2.0, 8.0].map(|rate| {
-        let mut scene = named(format!("rate {rate}"), scenes::plain(41, 40, 33));
-        scene.view.sampling.rate = rate;
-        scene
-    }));
+    assert_kept([0.01, 0.3, 2.0, 8.0].map(|rate| extremes::at_rate(rate, [40, 33])));
 }
 
 #[test]
@@ -228,12 +142,12 @@ fn tolerances_at_their_ends() {
 
 #[test]
 fn little_memory() {
-    let mut deep = scenes::plain(121, 17, 9);
+    let mut deep = extremes::plain("many layers", 121, [17, 9]);
     deep.view.camera.as_mut().expect("plain scenes have a camera").near = Some(0.01);
     deep.view.sampling.rate = 8.0;
-    let mut dense = scenes::plain(122, 64, 48);
+    let mut dense = extremes::plain("many references", 122, [64, 48]);
     dense.particles.iter_mut().for_each(|particle| particle.support_radius *= 3.0);
-    let scenes = [scenes::plain(120, 64, 48), named("many layers", deep), named("many references", dense)];
+    let scenes = [scenes::plain(120, 64, 48), deep, dense];
     for memory in [1 << 20, 256 << 10, 192 << 10] {
         let mut renderer = open(&GpuOptions { memory: Some(memory), ..GpuOptions::default() });
         assert_kept_by(&mut renderer, scenes.clone());
@@ -244,7 +158,7 @@ fn little_memory() {
 fn base_scenes() -> Vec<Scene> {
     let mut cubic = scenes::plain(11, 57, 43);
     cubic.view.particles.kernel = Kernel::Cubic;
-    let mut inside = named("from inside", scenes::plain(12, 57, 43));
+    let mut inside = extremes::plain("from inside", 12, SIZE);
     let camera = inside.view.camera.as_mut().expect("plain scenes have a camera");
     (camera.eye, camera.target) = (DVec3::new(0.1, 0.2, 0.3), DVec3::new(-1.0, 0.5, -0.2));
     (camera.near, camera.far, camera.fov_y_degrees) = (Some(0.05), Some(2.5), 75.0);

@@ -1,5 +1,7 @@
 //! The real window, driven by a real mouse and keyboard under Xvfb, with whatever Vulkan there is.
 
+#[path = "window/cells.rs"]
+mod cells;
 #[path = "window/desktop.rs"]
 mod desktop;
 #[cfg(unix)]

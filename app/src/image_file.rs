@@ -26,6 +26,14 @@ pub enum Format {
 }
 
 impl Format {
+    /// How names of such files end.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Format::Png => ".png",
+            Format::Exr => ".exr",
+        }
+    }
+
     /// The format that a file name ends in, in any case; `None` for other endings.
     pub fn of(path: &Path) -> Option<Format> {
         match path.extension()?.to_str()?.to_lowercase().as_str() {
@@ -133,7 +141,8 @@ fn to_srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-fn to_linear(srgb: f32) -> f32 {
+/// From a channel of sRGB to linear light.
+pub fn to_linear(srgb: f32) -> f32 {
     if srgb <= 0.040_45 { srgb / 12.92 } else { ((srgb + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -5,6 +5,7 @@ mod difference;
 pub mod frames;
 pub mod image_file;
 mod io_error;
+mod overlay;
 pub mod scene;
 pub mod view_file;
 pub mod viewer;

@@ -20,7 +20,8 @@
 //!    evaluated only at samples inside its support.
 //!
 //! `plan` cuts a picture that does not fit the device into tiles; `tiles` takes one tile through the
-//! stages; `renderer` knows which stages a change makes stale, and skips the others.
+//! stages; `renderer` knows which stages a change makes stale, and skips the others. On demand,
+//! `read_cells` reads back what became of each cell ([`CellMap`], [`BundleDetail`]).
 //!
 //! # Numbers
 //!
@@ -33,6 +34,7 @@
 #[doc(hidden)]
 pub mod bench;
 mod camera;
+mod cell_map;
 mod crowds;
 mod error;
 mod gpu;
@@ -42,6 +44,7 @@ mod pace;
 mod particles;
 mod picture;
 mod plan;
+mod read_cells;
 mod renderer;
 mod sampling;
 mod scene;
@@ -53,6 +56,10 @@ mod transfer;
 mod view;
 
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
+pub use cell_map::{
+    Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,
+    CellMap, KnownValues, MapCell, bundle_of, column_of,
+};
 pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};
 pub use inspect::GridCell;
@@ -60,7 +67,7 @@ pub use kernel::Kernel;
 pub use particles::{Bounds, ParticleSet, Quantity, RawParticle, Rejected};
 pub use picture::Picture;
 pub use renderer::{Progress, Renderer};
-pub use sampling::{Bound, Sampling};
+pub use sampling::{Bound, Sampling, Without};
 pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ControlPoint, TransferFunction};

@@ -36,7 +36,7 @@ impl Picture {
 }
 
 /// Lane of a pixel inside its bundle: a Morton curve, as `place_in_bundle` of `cast.wgsl`.
-fn lane_of(x: usize, y: usize) -> usize {
+pub(crate) fn lane_of(x: usize, y: usize) -> usize {
     let spread = |i: usize| (i & 1) | (i & 2) << 1 | (i & 4) << 2;
     spread(x) | spread(y) << 1
 }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use crate::camera::{BUNDLE_SIDE, Camera, Slices};
+use crate::cell_map::CellMap;
 use crate::error::{RenderError, TooLarge};
 use crate::gpu::{Buffer, Gpu, Timing};
 use crate::kernel::Kernel;
@@ -133,26 +134,54 @@ impl Renderer {
     /// Renders `scene`, no channel of any pixel farther from full sampling than its tolerance. Blocks until the picture is there, and asks `progress`
     /// between submissions, some tens of milliseconds apart, whether to go on.
     pub fn render(&mut self, scene: &Scene, progress: &mut Progress) -> Result<Picture, RenderError> {
-        let geometry = Geometry::of(scene);
-        let shading = Shading::of(scene);
-        if let Some((last_geometry, last_shading, picture)) = &self.last
-            && (last_geometry, last_shading) == (&geometry, &shading)
-        {
-            let mut picture = picture.clone();
-            picture.stats.milliseconds = Milliseconds::default();
-            return Ok(picture);
+        match self.known_picture(scene) {
+            Some(picture) => Ok(picture),
+            None => self.render_anew(scene, progress, None),
         }
-        let result = self.render_stale(scene, progress);
+    }
+
+    /// The last picture, where it is of this very scene.
+    pub(crate) fn known_picture(&self, scene: &Scene) -> Option<Picture> {
+        let (_, _, picture) = self.last.as_ref().filter(|_| self.knows(scene))?;
+        let mut picture = picture.clone();
+        picture.stats.milliseconds = Milliseconds::default();
+        Some(picture)
+    }
+
+    /// Whether the last picture is of this very scene.
+    pub(crate) fn knows(&self, scene: &Scene) -> bool {
+        self.last.as_ref().is_some_and(|(geometry, shading, _)| {
+            *geometry == Geometry::of(scene) && *shading == Shading::of(scene)
+        })
+    }
+
+    /// Renders, and puts what became of the cells into the map that is given.
+    pub(crate) fn render_anew(
+        &mut self,
+        scene: &Scene,
+        progress: &mut Progress,
+        cells: Option<&mut CellMap>,
+    ) -> Result<Picture, RenderError> {
+        let result = self.render_stale(scene, progress, cells);
         if result.is_err() {
-            // What an interrupted picture left on the device is not known.
-            (self.projected, self.sorted, self.analysed) = (None, None, None);
+            self.forget();
         }
         let picture = result?;
-        self.last = Some((geometry, shading, picture.clone()));
+        self.last = Some((Geometry::of(scene), Shading::of(scene), picture.clone()));
         Ok(picture)
     }
 
-    fn render_stale(&mut self, scene: &Scene, progress: &mut Progress) -> Result<Picture, RenderError> {
+    /// Takes nothing on the device for known any more: an interrupted picture leaves what it may.
+    pub(crate) fn forget(&mut self) {
+        (self.projected, self.sorted, self.analysed) = (None, None, None);
+    }
+
+    fn render_stale(
+        &mut self,
+        scene: &Scene,
+        progress: &mut Progress,
+        mut cells_wanted: Option<&mut CellMap>,
+    ) -> Result<Picture, RenderError> {
         let begin = Instant::now();
         let mut job = self.begin(scene)?;
         let mut picture = self.blank(scene, &job.slices);
@@ -171,6 +200,9 @@ impl Renderer {
                     picture.stats.pairs += size.pairs;
                     picture.stats.cells += size.cells;
                     self.cast_tile(&job, &tile, size, &mut tile_progress, &mut picture)?;
+                    if let Some(map) = &mut cells_wanted {
+                        self.read_tile(&job, &tile, map)?;
+                    }
                     cells_done += tile.cells();
                 }
                 Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
@@ -195,7 +227,7 @@ impl Renderer {
         let geometry = Geometry::of(scene);
         let resident = scene.particles.len() as u64 <= limits.particles;
         if resident && self.store.upload(&self.gpu, &scene.particles, &scene.quantity)? {
-            (self.projected, self.sorted, self.analysed) = (None, None, None);
+            self.forget();
         }
         self.transfer.write(&self.gpu, &scene.transfer)?;
         self.frame.write(&self.gpu, &[FrameUniform::new(scene, &slices, self.store.count())])?;
@@ -217,7 +249,7 @@ impl Renderer {
     }
 
     /// A transparent picture, and what is known of it before it is rendered.
-    fn blank(&self, scene: &Scene, slices: &Slices) -> Picture {
+    pub(crate) fn blank(&self, scene: &Scene, slices: &Slices) -> Picture {
         let [width, height] = [scene.width, scene.height];
         let mut rejected = scene.particles.rejected();
         rejected.non_finite += scene.quantity.rejected();

@@ -45,6 +45,26 @@ pub struct Sampling {
     pub z_adaptive: bool,
     /// Bricks, or by the paper's bound cells, may be shown by one colour.
     pub super_pixels: bool,
+    /// For measurements; no view asks for it.
+    #[doc(hidden)]
+    pub without: Without,
+    /// Analysed even where that hardly pays: for tests.
+    #[doc(hidden)]
+    pub anyway: bool,
+}
+
+/// A part of the method that is left out, to see what it is worth. The tolerance is kept without it.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Without {
+    #[default]
+    Nothing,
+    /// Bricks are bounded by the extremes of their particles.
+    Expansion,
+    /// Any ray may miss the particles of any brick.
+    Coverage,
+    /// Bricks are shown from front to back until the budget is used up.
+    Greed,
 }
 
 /// By how much single precision and the early end of rays (transparency 10⁻⁵) may set two pictures
@@ -55,7 +75,8 @@ impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
         let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, .. } = *view;
         let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
-        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels }
+        let (without, anyway) = (Without::Nothing, false);
+        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels, without, anyway }
     }
 
     /// Whether a coarser sampling along rays may cost less than to show one colour, for all that it saves.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::cell_map::CellClass;
 use crate::particles::Rejected;
 use crate::stages::shared::Counters;
 
@@ -73,6 +74,28 @@ pub struct CellClasses {
     pub transparent: u64,
     /// Behind what lets no light through that the tolerance would notice.
     pub occluded: u64,
+}
+
+impl CellClasses {
+    /// Cells of one class.
+    pub fn count(mut self, class: CellClass) -> u64 {
+        *self.of(class)
+    }
+
+    pub(crate) fn add(&mut self, class: CellClass) {
+        *self.of(class) += 1;
+    }
+
+    fn of(&mut self, class: CellClass) -> &mut u64 {
+        match class {
+            CellClass::Full => &mut self.full,
+            CellClass::Mixed => &mut self.mixed,
+            CellClass::ZAdaptive(level) => &mut self.z_adaptive[usize::from(level.clamp(1, 4)) - 1],
+            CellClass::SuperPixel => &mut self.super_pixel,
+            CellClass::Transparent => &mut self.transparent,
+            CellClass::Occluded => &mut self.occluded,
+        }
+    }
 }
 
 /// Kernel weights computed for one particle at one place.

@@ -1,6 +1,6 @@
 //! The guarantee of adaptive sampling: random cases for it, and whether it was kept.
 
-use renderer::{CameraView, ControlPoint, Kernel, Picture, Renderer};
+use renderer::{CameraView, ControlPoint, Kernel, Picture, Renderer, Without};
 
 use crate::compare::{Comparison, compare};
 use crate::device::{prepare, render};
@@ -201,11 +201,17 @@ pub struct Trial {
     pub comparison: Comparison,
 }
 
-/// Renders `scene`, which has a tolerance, both ways. The grid of particles stays the same, and with
-/// it the order of all sums: what differs is the sampling.
+/// Renders `scene`, which has a tolerance, both ways; adaptively even where that is not worth its while.
+/// The grid of particles stays the same, and with it the order of all sums: what differs is the sampling.
 pub fn try_out(renderer: &mut Renderer, scene: &Scene) -> Trial {
+    try_without(renderer, scene, Without::Nothing)
+}
+
+/// The same with a part of the method left out.
+pub fn try_without(renderer: &mut Renderer, scene: &Scene, part: Without) -> Trial {
     let tolerance = scene.view.sampling.tolerance.expect("a trial needs a tolerance");
-    let prepared = prepare(scene);
+    let mut prepared = prepare(scene);
+    (prepared.sampling.without, prepared.sampling.anyway) = (part, true);
     let mut unadapted = prepared.clone();
     unadapted.sampling.tolerance = None;
     let full = render(renderer, &unadapted);

@@ -17,13 +17,14 @@
 //! | [`floor`] | the one documented deviation: the sub-pixel floor of the support radius |
 //!
 //! Besides the twin: [`compare`] tells two pictures apart, [`margins`] says how near a ray comes to a
-//! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]), [`device`] renders them
-//! on the machine's adapter, and [`guarantee`] tries whether adaptive sampling keeps its tolerance.
+//! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]) and [`extremes`] those at
+//! the end of what makes sense, [`device`] renders them on the machine's adapter, and [`guarantee`] tries whether adaptive sampling keeps its tolerance.
 
 pub mod camera;
 pub mod compare;
 pub mod composite;
 pub mod device;
+pub mod extremes;
 pub mod floor;
 pub mod grid;
 pub mod guarantee;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use renderer::{ParticleSet, Picture, Quantity, RenderError, Renderer, Scene, View};
+use renderer::{CellMap, ParticleSet, Picture, Progress, Quantity, RenderError, Renderer, Scene, View};
 
 use super::Run;
 use super::interrupt::{INTERRUPTED, Interrupt};
@@ -192,12 +192,33 @@ impl Film {
         index: usize,
         part: Range<f32>,
     ) -> anyhow::Result<Picture> {
+        self.follow(index, part, |progress| renderer.render(scene, progress))
+    }
+
+    /// The same, with what became of its cells.
+    pub fn render_with_cells(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        index: usize,
+        part: Range<f32>,
+    ) -> anyhow::Result<(Picture, CellMap)> {
+        self.follow(index, part, |progress| renderer.render_with_cells(scene, progress))
+    }
+
+    /// Shows the progress of `work`, and ends it when the user asks for that.
+    fn follow<T>(
+        &self,
+        index: usize,
+        part: Range<f32>,
+        work: impl FnOnce(&mut Progress) -> Result<T, RenderError>,
+    ) -> anyhow::Result<T> {
         let mut progress = |share: f32| {
             show(&self.bar, index, part.start + share * (part.end - part.start));
             if self.interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let name = self.name(index);
-        match renderer.render(scene, &mut progress) {
+        match work(&mut progress) {
             Err(RenderError::Cancelled) => bail!(Fatal(INTERRUPTED.to_owned())),
             Err(error @ RenderError::DeviceLost(_)) => bail!(Fatal(format!("{name}: {error}"))),
             result => result.with_context(|| name.to_owned()),

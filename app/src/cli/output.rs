@@ -1,4 +1,4 @@
-//! Where pictures go: `--out` as one file, a number pattern, or a directory.
+//! Where pictures go: one file, a number pattern, or a directory.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use super::WrongArguments;
 use crate::image_file::Format;
 use crate::io_error::describe;
 
-/// What `--out` names.
+/// What `--out`, or another flag, names.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Output {
     One(PathBuf),
@@ -21,16 +21,18 @@ pub enum Output {
 }
 
 impl Output {
-    /// Understands `--out` for `frames` pictures: a pattern where it holds `{}`, `{:4}` or `{:04}`; a
-    /// directory where there is one, or where the name has no ending or closes with a slash.
-    pub fn new(path: &Path, frames: usize) -> Result<Output, WrongArguments> {
-        let wrong = |what: &str| WrongArguments(format!("--out: {}: {what}", path.display()));
+    /// Understands what `flag` says for `frames` pictures in one of `formats`: a pattern where it holds
+    /// `{}`, `{:4}` or `{:04}`; a directory where there is one, or where the name has no ending or closes
+    /// with a slash.
+    pub fn new(flag: &str, path: &Path, frames: usize, formats: &[Format]) -> Result<Output, WrongArguments> {
+        let wrong = |what: &str| WrongArguments(format!("{flag}: {}: {what}", path.display()));
         let text = path.to_string_lossy();
         if path.is_dir() || path.extension().is_none() || text.ends_with(['/', std::path::MAIN_SEPARATOR]) {
             return Ok(Output::Directory(path.to_owned()));
         }
-        if Format::of(path).is_none() {
-            return Err(wrong("a picture's name ends in .png or .exr"));
+        if !Format::of(path).is_some_and(|format| formats.contains(&format)) {
+            let endings: Vec<&str> = formats.iter().map(|format| format.ending()).collect();
+            return Err(wrong(&format!("a picture's name ends in {}", endings.join(" or "))));
         }
         if let Some((before, rest)) = text.split_once('{') {
             let parts = rest.split_once('}').filter(|(_, after)| !after.contains(['{', '}']));
@@ -77,7 +79,7 @@ mod tests {
     use super::*;
 
     fn output(path: &str, frames: usize) -> Result<Output, WrongArguments> {
-        Output::new(Path::new(path), frames)
+        Output::new("--out", Path::new(path), frames, &[Format::Png, Format::Exr])
     }
 
     #[test]
@@ -96,5 +98,7 @@ mod tests {
         {
             assert!(output(wrong, frames).is_err(), "{wrong}");
         }
+        let only_png = Output::new("--overlay", Path::new("a.exr"), 1, &[Format::Png]).unwrap_err();
+        assert_eq!(only_png.0, "--overlay: a.exr: a picture's name ends in .png");
     }
 }

@@ -1,7 +1,10 @@
 //! Session, threads, dialogs and panels at work together: one call a frame.
 
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, mpsc};
+mod files;
+mod measuring;
+
+use std::path::PathBuf;
+use std::sync::mpsc;
 use std::time::Instant;
 
 use egui::Ui;
@@ -9,18 +12,16 @@ use renderer::{GpuOptions, View};
 use winit::window::Window;
 
 use crate::frames::Sequence;
-use crate::{image_file, view_file};
 
 use super::analysis::Analysis;
 use super::dialogs::{self, Dialogs, Purpose};
-use super::error_map;
 use super::export::Export;
-use super::measurement::{Measurement, State};
+use super::measurement::Measurement;
+use super::panels::inspector::Inspector;
 use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
 use super::picture_view::PictureView;
 use super::render_thread::{RenderThread, Report};
-use super::run::{self, Run};
 use super::session::Session;
 use super::shortcuts::Action;
 use super::task::Outcome;
@@ -50,6 +51,7 @@ pub struct Desk {
     pub(super) exports: Vec<Export>,
     /// Of the picture in view.
     pub(super) measurement: Option<Measurement>,
+    pub(super) inspector: Inspector,
     pub(super) legend: bool,
     pub(super) help: bool,
     pub(super) side_panel: bool,
@@ -79,6 +81,7 @@ impl Desk {
             sampling: SamplingPanel::new(),
             exports: Vec::new(),
             measurement: None,
+            inspector: Inspector::default(),
             legend: true,
             help: false,
             side_panel: true,
@@ -104,7 +107,7 @@ impl Desk {
     /// One frame of the window: takes in what has happened, shows everything, asks for what is missing.
     pub fn frame(&mut self, ui: &mut Ui, window: &Window) {
         let now = Instant::now();
-        self.take_reports(ui.ctx());
+        self.take_reports();
         self.take_done();
         self.take_outcomes();
         self.take_drops(ui.ctx());
@@ -122,7 +125,8 @@ impl Desk {
         if let Some(job) = self.session.job(now, room) {
             self.render.submit(job);
         }
-        self.follow_measurement(ui.ctx());
+        self.follow_measurement();
+        self.escape(ui.ctx());
         self.count();
         // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
         self.due = self.session.due(now);
@@ -182,6 +186,11 @@ impl Desk {
             }
             Action::ZoomIn | Action::ZoomOut => self.picture.zoom(session, action == Action::ZoomIn),
             Action::Fly => self.picture.flying = !self.picture.flying,
+            Action::Inspect => {
+                self.picture.inspecting = !self.picture.inspecting;
+                session.log(if self.picture.inspecting { "inspect on" } else { "inspect off" });
+            }
+            Action::CellClasses => session.overlay.toggle_classes(),
             Action::Panels => self.side_panel = !self.side_panel,
             Action::FullScreen => self.orders.push(Order::FullScreen),
             Action::Help => self.help = !self.help,
@@ -189,12 +198,12 @@ impl Desk {
         }
     }
 
-    fn take_reports(&mut self, context: &egui::Context) {
+    fn take_reports(&mut self) {
         for report in self.render.reports() {
-            if let Report::Picture(shown) = &report {
-                self.picture.set(context, shown);
-            }
             self.session.note(&report);
+            if let Report::Picture(shown) = report {
+                self.picture.layers.set(*shown);
+            }
         }
     }
 
@@ -255,120 +264,6 @@ impl Desk {
         });
     }
 
-    fn chosen(&mut self, purpose: Purpose, paths: Vec<PathBuf>) {
-        let Some(first) = paths.first().cloned() else { return };
-        match purpose {
-            Purpose::OpenFiles | Purpose::OpenFolder => self.find(paths),
-            Purpose::LoadView => self.load_view(first),
-            Purpose::SaveView => self.save_view(with_ending(first, &["json"])),
-            Purpose::SavePicture => self.save_picture(with_ending(first, &["png", "exr"])),
-        }
-    }
-
-    fn take_drops(&mut self, context: &egui::Context) {
-        let dropped = context.input(|input| input.raw.dropped_files.clone());
-        let paths: Vec<PathBuf> = dropped.iter().map(|file| file.path().to_owned()).collect();
-        match paths.as_slice() {
-            [] => {}
-            [only] if only.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
-                self.load_view(only.clone())
-            }
-            _ => self.find(paths),
-        }
-    }
-
-    /// Looks for frames and opens them as a run.
-    fn find(&mut self, paths: Vec<PathBuf>) {
-        self.finding = true;
-        self.work(move || Done::Found(run::find(&paths)));
-    }
-
-    fn open(&mut self, sequence: &Sequence) {
-        for note in sequence.notes() {
-            self.session.messages.note(note.clone());
-        }
-        self.session.open(Run::new(sequence, &self.wake));
-        self.picture.clear();
-    }
-
-    fn load_view(&mut self, path: PathBuf) {
-        self.work(move || {
-            let view = view_file::read(&path);
-            Done::ViewRead(path, view.map(Box::new))
-        });
-    }
-
-    fn save_view(&self, path: PathBuf) {
-        let view = self.session.complete_view();
-        self.work(move || {
-            let saved = image_file::write_whole(&path, view.to_json().as_bytes());
-            Done::ViewSaved(path, saved)
-        });
-    }
-
-    fn save_picture(&mut self, path: PathBuf) {
-        let Some((_, frame)) = self.session.frame().cloned() else {
-            self.session.complain("There is no frame to save a picture of: open files first");
-            return;
-        };
-        let view = self.session.complete_view();
-        let wake = Wake::clone(&self.wake);
-        self.exports.push(Export::start(frame, view, path, self.gpu.clone(), wake));
-    }
-
-    /// Starts to measure the error of the picture in view.
-    fn measure_error(&mut self) {
-        let session = &self.session;
-        if let (Some((_, frame)), Some(tolerance)) = (session.frame(), session.view.sampling.tolerance) {
-            let (frame, view) = (Arc::clone(frame), session.drawn_view());
-            let wake = Wake::clone(&self.wake);
-            self.measurement = Some(Measurement::start(frame, &view, tolerance, self.gpu.clone(), wake));
-        }
-    }
-
-    /// Takes in what was measured, and forgets it with the picture that it is about.
-    fn follow_measurement(&mut self, context: &egui::Context) {
-        let view = self.session.drawn_view();
-        let session = &mut self.session;
-        let Some(measurement) = &mut self.measurement else { return };
-        let in_view = session.frame().is_some_and(|(_, frame)| measurement.is_of(frame, &view));
-        let outcome = if in_view { measurement.poll() } else { Some(Outcome::Cancelled) };
-        match outcome {
-            None => return,
-            Some(Outcome::Done(())) => {
-                if let State::Done(measured) = &measurement.state {
-                    session
-                        .log(format!("measured max={:e} above={}", measured.error.max, measured.error.above));
-                    self.picture.set_errors(context, Some(error_map::image(measured)));
-                }
-                return;
-            }
-            Some(Outcome::Failed(text)) => session.complain(text),
-            Some(Outcome::Cancelled) => session.log("no measurement"),
-        }
-        self.measurement = None;
-        self.picture.set_errors(context, None);
-    }
-
-    /// Saves picture and view in the working directory, under names that are free.
-    fn quick_save(&mut self) {
-        let stem = self.file_stem();
-        let names = (1..).map(|number| match number {
-            1 => stem.clone(),
-            number => format!("{stem}-{number}"),
-        });
-        let free = |name: &String| !Path::new(&format!("{name}.png")).exists();
-        if let Some(name) = names.take(10_000).find(free) {
-            self.save_view(format!("{name}.json").into());
-            self.save_picture(format!("{name}.png").into());
-        }
-    }
-
-    fn file_stem(&self) -> String {
-        let index = self.session.frame().map_or(0, |(index, _)| *index);
-        format!("sphcast-{index:04}")
-    }
-
     /// Counts values for the histogram, one frame at a time.
     fn count(&mut self) {
         if self.counting {
@@ -389,6 +284,18 @@ impl Desk {
         });
     }
 
+    /// Closes the inspector, and then ends the tool.
+    fn escape(&mut self, context: &egui::Context) {
+        let elsewhere = self.help || egui::Popup::is_any_open(context) || context.egui_wants_keyboard_input();
+        if elsewhere || !context.input(|input| input.key_pressed(egui::Key::Escape)) {
+            return;
+        }
+        match self.session.probe.take() {
+            Some(_) => self.session.log("inspector closed"),
+            None => self.picture.inspecting = false,
+        }
+    }
+
     /// Asks for the picture again, after the window's device was lost with all textures.
     pub fn picture_lost(&mut self) {
         self.picture.clear();
@@ -405,16 +312,4 @@ impl Desk {
             _ => None,
         }
     }
-}
-
-/// A file name that ends in one of `endings`, the first unless it has another of them.
-fn with_ending(path: PathBuf, endings: &[&str]) -> PathBuf {
-    let fits = |ending: &std::ffi::OsStr| endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
-    if path.extension().is_some_and(fits) {
-        return path;
-    }
-    let mut name = path.into_os_string();
-    name.push(".");
-    name.push(endings[0]);
-    name.into()
 }

@@ -1,9 +1,10 @@
 //! Errors as colours: from dark to bright in one hue up to the tolerance, red above it.
 
-use egui::{Color32, ColorImage};
+use egui::Color32;
 
 use super::measurement::Measured;
 use super::tone::srgb_byte;
+use crate::overlay::Sheet;
 
 pub const ABOVE: Color32 = Color32::from_rgb(0xf0, 0x3e, 0x3e);
 
@@ -13,13 +14,22 @@ const LIGHTNESS: [f32; 2] = [0.18, 0.96];
 const CHROMA: f32 = 0.10;
 const HUE_DEGREES: f32 = 215.0;
 
-/// The picture of the errors.
-pub fn image(measured: &Measured) -> ColorImage {
-    let pixels = measured.errors.iter().map(|error| match *error {
+/// The errors of each pixel.
+pub fn sheet(measured: &Measured) -> Sheet {
+    let colours = measured.errors.iter().map(|error| match *error {
         error if error > measured.tolerance => ABOVE,
         error => colour((error / measured.tolerance) as f32),
     });
-    ColorImage::new(measured.size.map(|side| side as usize), pixels.collect())
+    Sheet::of_pixels(measured.size, colours.map(rgb))
+}
+
+/// The colour of a share, as bytes.
+pub fn ramp(share: f32) -> [u8; 3] {
+    rgb(colour(share))
+}
+
+fn rgb(colour: Color32) -> [u8; 3] {
+    [colour.r(), colour.g(), colour.b()]
 }
 
 /// The colour of an error that is `share` of the tolerance: even steps of the error are even steps

@@ -4,9 +4,10 @@ use egui::{Align2, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, St
 
 use super::desk::Desk;
 use super::measurement::{Measurement, State};
+use super::panels::toolbar::Modes;
 use super::panels::{
-    camera, cell_classes, error_legend, help, image, legend, measured_error, messages, particles,
-    performance, quantity, timeline, toolbar,
+    camera, cells, help, image, legend, measured_error, messages, overlay_legend, particles, performance,
+    quantity, saved, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
@@ -17,7 +18,12 @@ use super::{theme, widgets};
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2] {
     let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 0));
     Panel::top("toolbar").exact_size(40.0).frame(bar).show(ui, |ui| {
-        toolbar::show(ui, &desk.session, desk.picture.flying, desk.side_panel, actions);
+        let modes = Modes {
+            flying: desk.picture.flying,
+            inspecting: desk.picture.inspecting,
+            panels: desk.side_panel,
+        };
+        toolbar::show(ui, &desk.session, modes, actions);
     });
     if desk.session.playback.count() > 1 {
         let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 6));
@@ -43,20 +49,22 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
     let room = PictureView::room(outer, ui.pixels_per_point());
     let rect = desk.picture.show(ui, &mut desk.session);
     over_picture(ui, desk, rect, outer);
+    desk.inspector.show(ui, &mut desk.session, rect);
     help::show(ui, &mut desk.help);
     drop_target(ui);
     room
 }
 
 fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    let Desk { session, editor, sampling, legend, picture, measurement, .. } = desk;
+    let Desk { session, editor, sampling, legend, measurement, .. } = desk;
     widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
     widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
     widgets::section(ui, "Sampling", true, |ui| {
         sampling.show(ui, session);
-        cell_classes::show(ui, session);
-        measured_error::show(ui, session, measurement.as_ref(), &mut picture.shows_errors, actions);
+        saved::show(ui, session);
+        measured_error::show(ui, session, measurement.as_ref(), actions);
     });
+    widgets::section(ui, "Cells", true, |ui| cells::show(ui, session, measurement.as_ref(), actions));
     widgets::section(ui, "Picture", false, |ui| image::show(ui, session, legend, actions));
     widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
     widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
@@ -64,12 +72,9 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
 }
 
 fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
-    match &desk.measurement {
-        Some(Measurement { state: State::Done(measured), .. }) if desk.picture.shows_errors => {
-            error_legend::show(ui, measured, rect);
-        }
-        _ if desk.legend && desk.session.picture.is_some() => legend::show(ui, &desk.session, rect),
-        _ => {}
+    let overlaid = overlay_legend::show(ui, desk, rect);
+    if !overlaid && desk.legend && desk.session.picture.is_some() {
+        legend::show(ui, &desk.session, rect);
     }
     status(ui, desk, outer);
     tasks(ui, desk, outer);

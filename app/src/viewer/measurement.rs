@@ -156,7 +156,7 @@ mod tests {
         let sequence = Sequence::open(&[PathBuf::from("demo:radial:1000")]).unwrap();
         let frame = Arc::new(sequence.sources()[0].load().unwrap());
         let mut view = View::default();
-        (view.image.width, view.image.height) = (40, 24);
+        (view.image.width, view.image.height) = (96, 64);
         view.sampling.tolerance = Some(0.02);
         let options = GpuOptions::default();
         let mut measurement = Measurement::start(Arc::clone(&frame), &view, 0.02, options, Arc::new(|| {}));
@@ -169,7 +169,7 @@ mod tests {
         assert_eq!(outcome, Outcome::Done(()));
         let State::Done(measured) = &measurement.state else { panic!("it is done") };
         assert!(measured.error.max > 0.0 && measured.error.max <= 0.02, "{:?}", measured.error);
-        assert_eq!((measured.error.above, measured.errors.len()), (0.0, 40 * 24));
+        assert_eq!((measured.error.above, measured.errors.len()), (0.0, 96 * 64));
         assert!(measured.speed_up.evaluations > 1.0, "{:?}", measured.speed_up);
 
         view.image.background = Some([1.0; 3]);

@@ -6,19 +6,20 @@ use egui::{
 };
 use glam::{DVec2, DVec3};
 
+use super::layers::Layers;
 use super::orbit_camera::{OrbitCamera, Screen};
-use super::render_thread::Shown;
+use super::overlay::Overlay;
+use super::panels::probe;
 use super::session::Session;
 use super::theme;
 use super::widgets::Areas;
 
-/// The picture as a texture, and the mode in which the mouse moves the camera.
+/// The picture as a texture, and what the mouse does over it.
 pub struct PictureView {
+    pub layers: Layers,
     texture: Option<TextureHandle>,
-    /// The errors of this picture, where they were measured.
-    errors: Option<TextureHandle>,
-    /// Whether the errors are shown in its place.
-    pub shows_errors: bool,
+    /// Whether a click looks into the picture.
+    pub inspecting: bool,
     pub flying: bool,
     /// Speed of flying, in shares of the scene's radius a second.
     speed: f64,
@@ -30,29 +31,26 @@ const FLY_SPEEDS: [f64; 2] = [0.01, 10.0];
 
 impl PictureView {
     pub fn new() -> PictureView {
-        PictureView { texture: None, errors: None, shows_errors: false, flying: false, speed: 0.5 }
+        PictureView { layers: Layers::default(), texture: None, inspecting: false, flying: false, speed: 0.5 }
     }
 
-    /// Takes a new picture: nearest pixels at full resolution, which is the screen's own; smooth below.
-    pub fn set(&mut self, context: &egui::Context, shown: &Shown) {
-        let pixels = shown.pixels.iter().map(|&[r, g, b, _]| Color32::from_rgb(r, g, b)).collect();
-        let image = ColorImage::new([shown.width as usize, shown.height as usize], pixels);
-        let options = if shown.divisor == 1 { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
+    /// Has in the texture what is to be seen: nearest pixels at full resolution, which is the screen's
+    /// own; smooth below.
+    fn refresh(&mut self, context: &egui::Context, overlay: &Overlay) {
+        let Some(image) = self.layers.refresh(overlay) else { return };
+        let options = if image.divisor == 1 { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
+        let pixels = image.pixels.iter().map(|&[r, g, b, _]| Color32::from_rgb(r, g, b)).collect();
+        let image = ColorImage::new(image.size, pixels);
         match &mut self.texture {
             Some(texture) => texture.set(image, options),
             None => self.texture = Some(context.load_texture("picture", image, options)),
         }
     }
 
-    /// Takes the errors of the picture, or forgets them when it is no longer in view.
-    pub fn set_errors(&mut self, context: &egui::Context, image: Option<ColorImage>) {
-        self.errors = image.map(|image| context.load_texture("errors", image, TextureOptions::NEAREST));
-        self.shows_errors &= self.errors.is_some();
-    }
-
     /// Forgets the picture, when another run is opened.
     pub fn clear(&mut self) {
         self.texture = None;
+        self.layers = Layers::default();
     }
 
     /// Room for a picture in `rect`, in physical pixels.
@@ -67,7 +65,8 @@ impl PictureView {
         ui.painter().rect_filled(outer, 0, theme::GROUND);
         let rect = place(outer, session.fitted(), ui.pixels_per_point());
         Areas::mark(ui, "picture", rect);
-        if let Some(texture) = self.errors.as_ref().filter(|_| self.shows_errors).or(self.texture.as_ref()) {
+        self.refresh(ui.ctx(), &session.overlay);
+        if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
         }
@@ -76,6 +75,10 @@ impl PictureView {
             ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
         }
         self.steer(ui, &response, rect, session);
+        if self.inspecting {
+            probe::pick(ui, &response, rect, session);
+        }
+        probe::mark(ui, rect, session);
         if let Some(camera) = &session.camera {
             triad(ui, rect, camera);
         }
@@ -107,6 +110,7 @@ impl PictureView {
             ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         }
         if response.double_clicked()
+            && !self.inspecting
             && let Some(position) = response.interact_pointer_pos()
         {
             camera.centre_on(cursor(position), screen);

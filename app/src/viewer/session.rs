@@ -1,22 +1,24 @@
 //! The state of the program: run, playhead, view, messages. Knows no window and no egui.
 
+mod picture;
 mod wish;
 
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use renderer::{Bounds, Rejected, SamplingView, Stats, View};
+use renderer::{Bounds, View};
 
 use crate::frames::{Frame, FrameState};
 
 use super::analysis::{Analysis, Question};
 use super::messages::Messages;
 use super::orbit_camera::OrbitCamera;
+use super::overlay::Overlay;
 use super::playback::{Arrival, Playback};
-use super::prepare::Facts;
-use super::render_thread::{Job, Report, Shown};
+use super::render_thread::Job;
 use super::run::Run;
+pub use picture::PictureFacts;
 
 /// Where the range of the transfer function comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,17 +29,6 @@ pub enum RangeSource {
     Seen,
     /// What the view says.
     Fixed,
-}
-
-/// What is known of the picture on the screen.
-#[derive(Clone, Debug)]
-pub struct PictureFacts {
-    pub index: usize,
-    pub divisor: u32,
-    pub full: [u32; 2],
-    pub sampling: SamplingView,
-    pub stats: Stats,
-    pub facts: Facts,
 }
 
 pub struct Session {
@@ -54,6 +45,10 @@ pub struct Session {
     /// The last frame that was read at the playhead.
     frame: Option<(usize, Arc<Frame>)>,
     pub picture: Option<PictureFacts>,
+    /// What lies over the picture.
+    pub overlay: Overlay,
+    /// The pixel of the full-size picture whose bundle is looked at.
+    pub probe: Option<[u32; 2]>,
     pub analysis: Option<Analysis>,
     /// Adapter's name, and whether it is a program on the CPU.
     pub adapter: Option<(String, bool)>,
@@ -90,6 +85,8 @@ impl Session {
             fits_window: true,
             frame: None,
             picture: None,
+            overlay: Overlay::default(),
+            probe: None,
             analysis: None,
             adapter: None,
             seen: HashMap::new(),
@@ -117,6 +114,7 @@ impl Session {
         self.log(format!("opened {} frames={}", run.title, run.stream.len()));
         self.run = Some(run);
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
+        self.probe = None;
         self.seen.clear();
         self.told.clear();
         self.told_left_out.clear();
@@ -259,58 +257,6 @@ impl Session {
         }
     }
 
-    /// Takes note of what the renderer reports; the picture itself is the caller's.
-    pub fn note(&mut self, report: &Report) {
-        match report {
-            Report::Adapter { name, software } => {
-                self.adapter = Some((name.clone(), *software));
-                self.log(format!("adapter {name}"));
-            }
-            Report::Picture(shown) => self.note_picture(shown),
-            Report::Failed { index, text } => {
-                self.without_picture = Some(*index);
-                self.messages.error(text.clone());
-                self.log(format!("failed frame={index} {text}"));
-            }
-            Report::Recovered(text) => self.recovered(text),
-        }
-    }
-
-    fn note_picture(&mut self, shown: &Shown) {
-        self.without_picture = None;
-        let facts = &shown.facts;
-        let aspect = f64::from(shown.full[0]) / f64::from(shown.full[1].max(1));
-        let bounds = match (self.extent.0, facts.bounds) {
-            (Some(seen), Some(new)) => Some(seen.union(&new)),
-            (seen, new) => seen.or(new),
-        };
-        let margin = self.extent.1.max(facts.support_radii[1]);
-        self.extent = (bounds, margin);
-        match &mut self.camera {
-            Some(camera) => camera.set_scene(bounds, margin),
-            None => {
-                let mut camera = OrbitCamera::overview(bounds, margin, aspect);
-                if let Some(view) = self.view.camera.take() {
-                    camera.adopt(&view.settled(bounds, margin, aspect));
-                }
-                self.camera = Some(camera);
-            }
-        }
-        if facts.rejected.total() > 0 && self.told_left_out.insert(shown.index) {
-            self.messages.warn(left_out(shown.index, facts.rejected));
-        }
-        let size = if shown.divisor == 1 { "full".into() } else { format!("1/{}", shown.divisor) };
-        self.log(format!("picture frame={} {}x{} {size}", shown.index, shown.width, shown.height));
-        self.picture = Some(PictureFacts {
-            index: shown.index,
-            divisor: shown.divisor,
-            full: shown.full,
-            sampling: shown.sampling,
-            stats: shown.stats.clone(),
-            facts: facts.clone(),
-        });
-    }
-
     /// What is to be counted for the histogram, where that is not known.
     pub fn question(&self) -> Option<Question> {
         let (index, frame) = self.frame.as_ref()?;
@@ -374,17 +320,6 @@ impl Session {
     pub fn take_events(&mut self) -> Vec<String> {
         std::mem::take(&mut self.events)
     }
-}
-
-/// Says why particles of a frame are not in its picture.
-fn left_out(index: usize, rejected: Rejected) -> String {
-    let reasons = [
-        (rejected.non_finite, "with a position or value that is not finite"),
-        (rejected.bad_radius, "without a valid radius"),
-    ];
-    let reasons: Vec<String> =
-        reasons.iter().filter(|(count, _)| *count > 0).map(|(count, why)| format!("{count} {why}")).collect();
-    format!("Frame {index}: left out {}", reasons.join(", "))
 }
 
 #[cfg(test)]

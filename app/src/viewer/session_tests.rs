@@ -1,12 +1,13 @@
 use std::path::PathBuf;
 
-use renderer::{CameraView, ControlPoint};
+use renderer::{CameraView, ControlPoint, Stats};
 
 use super::*;
 use crate::frames::Sequence;
 use crate::viewer::Wake;
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::prepare::Preparation;
+use crate::viewer::render_thread::{Report, Shown};
 
 const ROOM: [u32; 2] = [640, 400];
 
@@ -59,6 +60,8 @@ fn picture(session: &Session) -> Report {
         sampling: session.view.sampling,
         stats: Stats::default(),
         facts,
+        cells: None,
+        probed: None,
     }))
 }
 

@@ -25,6 +25,8 @@ pub enum Action {
     ZoomIn,
     ZoomOut,
     Fly,
+    Inspect,
+    CellClasses,
     Panels,
     FullScreen,
     Help,
@@ -54,7 +56,7 @@ const fn key(
 }
 
 /// Every shortcut. Those with more modifiers come first: a key with Ctrl is also that key.
-pub const SHORTCUTS: [Shortcut; 28] = [
+pub const SHORTCUTS: [Shortcut; 30] = [
     key("Files", CTRL, Key::O, Action::OpenFiles, "Open files"),
     key("Files", CTRL_SHIFT, Key::O, Action::OpenFolder, "Open a folder as a sequence"),
     key("Files", CTRL, Key::L, Action::LoadView, "Load a view"),
@@ -78,6 +80,8 @@ pub const SHORTCUTS: [Shortcut; 28] = [
     key("Camera", NONE, Key::Equals, Action::ZoomIn, ""),
     key("Camera", NONE, Key::Minus, Action::ZoomOut, "Zoom out"),
     key("Camera", NONE, Key::F, Action::Fly, "Fly mode on or off"),
+    key("Picture", NONE, Key::C, Action::CellClasses, "Classes of the cells on or off"),
+    key("Picture", NONE, Key::I, Action::Inspect, "Inspect: a click looks into a pixel"),
     key("Window", NONE, Key::P, Action::Panels, "Side panel on or off"),
     key("Window", NONE, Key::F11, Action::FullScreen, "Full screen on or off"),
     key("Window", NONE, Key::H, Action::Help, "This help"),
@@ -86,12 +90,14 @@ pub const SHORTCUTS: [Shortcut; 28] = [
 ];
 
 /// What the mouse does over the picture, and the keys that act as long as they are held.
-pub const GESTURES: [(&str, &str); 8] = [
+pub const GESTURES: [(&str, &str); 10] = [
     ("Left drag", "Orbit"),
     ("Right drag, Shift + drag", "Pan"),
     ("Wheel, pinch", "Zoom to the cursor"),
     ("Ctrl + left drag", "Zoom to the centre"),
     ("Double click", "Turn around this point"),
+    ("Click", "With Inspect on: look into this pixel"),
+    ("Escape", "Close the inspector, and end Inspect"),
     ("W A S D, Q E", "In fly mode: move, sink and rise"),
     ("Left drag, wheel", "In fly mode: look around, speed"),
     ("Shift", "In fly mode: faster"),

@@ -1,5 +1,7 @@
 //! Device buffers that grow and never shrink.
 
+use std::ops::Range;
+
 use bytemuck::{NoUninit, Pod};
 
 use super::Gpu;
@@ -84,16 +86,44 @@ fn create(gpu: &Gpu, label: &'static str, size: u64, usage: wgpu::BufferUsages) 
 /// A copy on its way to the host.
 pub(crate) struct Readback {
     staging: wgpu::Buffer,
+    /// Bytes that were asked for: the buffer may be larger.
+    size: u64,
 }
 
 impl Buffer {
     /// Records a copy of the first `count` elements for [`Readback::take`] after the submission.
     pub(crate) fn read_back(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, count: u64) -> Readback {
-        let size = count * self.stride;
+        self.read_range(gpu, encoder, 0..count)
+    }
+
+    /// Records a copy of the elements in `range`.
+    pub(crate) fn read_range(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        range: Range<u64>,
+    ) -> Readback {
+        self.read_ranges(gpu, encoder, std::slice::from_ref(&range))
+    }
+
+    /// Records a copy of the elements in `ranges`, one range behind the other.
+    pub(crate) fn read_ranges(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        ranges: &[Range<u64>],
+    ) -> Readback {
+        let bytes = |range: &Range<u64>| (range.end - range.start) * self.stride;
+        let size = ranges.iter().map(bytes).sum();
         let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
         let staging = create(gpu, "readback", size, usage);
-        encoder.copy_buffer_to_buffer(&self.buffer, 0, &staging, 0, size);
-        Readback { staging }
+        let mut place = 0;
+        for range in ranges {
+            let first = range.start * self.stride;
+            encoder.copy_buffer_to_buffer(&self.buffer, first, &staging, place, bytes(range));
+            place += bytes(range);
+        }
+        Readback { staging, size }
     }
 }
 
@@ -102,8 +132,10 @@ impl Readback {
     pub(crate) fn take<T: Pod>(self, gpu: &Gpu) -> Result<Vec<T>, RenderError> {
         self.staging.map_async(wgpu::MapMode::Read, .., |_| {});
         gpu.wait()?;
-        let view =
-            self.staging.get_mapped_range(..).map_err(|error| RenderError::Device(error.to_string()))?;
+        let view = self
+            .staging
+            .get_mapped_range(..self.size)
+            .map_err(|error| RenderError::Device(error.to_string()))?;
         Ok(bytemuck::pod_collect_to_vec(&view))
     }
 }

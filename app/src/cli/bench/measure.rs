@@ -94,15 +94,15 @@ impl Measurement {
             picture
         };
 
-        for setting in warm_up {
-            render(&mut self.renderer, &twins.scene(|view| setting.view(view))?, 1)?;
+        for setting in &warm_up {
+            render(&mut self.renderer, &twins.sampled(setting)?, 1)?;
         }
         let mut full = None;
         for _ in 0..self.rounds {
             let mut round = Vec::new();
             // In turn, so that a machine that grows hot or busy slows all of them alike.
             for setting in &self.settings {
-                let picture = render(&mut self.renderer, &twins.scene(|view| setting.view(view))?, 1)?;
+                let picture = render(&mut self.renderer, &twins.sampled(setting)?, 1)?;
                 let (pixels, stats) = apart(picture);
                 let full = full.get_or_insert_with(|| pixels.clone());
                 round.push(Sample {
@@ -113,7 +113,7 @@ impl Measurement {
             measured.rounds.push(round);
         }
 
-        let counted = render(&mut self.counting, &twins.scene(|view| self.settings[0].view(view))?, 1)?;
+        let counted = render(&mut self.counting, &twins.sampled(&self.settings[0])?, 1)?;
         let evaluations = counted.stats.evaluations;
         measured.inside = Some(evaluations.inside as f64 / evaluations.done as f64);
         if let Some(full) = full.filter(|_| self.discretisation) {
@@ -139,6 +139,13 @@ impl Twins {
     fn new(frame: &Frame, content: Content) -> anyhow::Result<Twins> {
         let twin = Content::new(frame, content.view.clone())?;
         Ok(Twins([content, twin]))
+    }
+
+    /// The scene of the other one than last time, as `setting` samples it.
+    fn sampled(&mut self, setting: &Setting) -> anyhow::Result<Scene> {
+        let mut scene = self.scene(|view| setting.view(view))?;
+        scene.sampling.without = setting.without();
+        Ok(scene)
     }
 
     /// The scene of the other one than last time.

@@ -1,6 +1,6 @@
 //! What is compared: full sampling, and one way or another to sample less.
 
-use renderer::{Bound, View};
+use renderer::{Bound, View, Without};
 
 use crate::cli::view::Tolerance;
 
@@ -18,22 +18,35 @@ pub struct Setting {
 #[derive(Debug)]
 pub struct Ablation {
     pub name: &'static str,
-    change: fn(&mut View),
+    change: Change,
 }
 
-/// A line for each: its name, and what it changes in the view.
-const ABLATIONS: [Ablation; 5] = [
-    Ablation { name: "only z", change: |view| view.sampling.super_pixels = false },
-    Ablation {
-        name: "only z relaxed",
-        change: |view| (view.sampling.super_pixels, view.sampling.relaxation) = (false, 1.0),
-    },
+#[derive(Debug)]
+enum Change {
+    /// Of what a view can say itself.
+    View(fn(&mut View)),
+    /// Of the method.
+    Method(Without),
+}
+
+/// A line for each: its name, and what it changes.
+static ABLATIONS: [Ablation; 8] = [
+    Ablation { name: "extremes only", change: Change::Method(Without::Expansion) },
+    Ablation { name: "no coverage", change: Change::Method(Without::Coverage) },
+    Ablation { name: "no greedy", change: Change::Method(Without::Greed) },
+    Ablation { name: "only z", change: Change::View(|view| view.sampling.super_pixels = false) },
     Ablation {
         name: "skipping only",
-        change: |view| (view.sampling.super_pixels, view.sampling.z_adaptive) = (false, false),
+        change: Change::View(|view| {
+            (view.sampling.super_pixels, view.sampling.z_adaptive) = (false, false);
+        }),
     },
-    Ablation { name: "paper's bound", change: |view| by_the_paper(view, 0.0) },
-    Ablation { name: "paper's bound relaxed", change: |view| by_the_paper(view, 1.0) },
+    Ablation {
+        name: "only z relaxed",
+        change: Change::View(|view| (view.sampling.super_pixels, view.sampling.relaxation) = (false, 1.0)),
+    },
+    Ablation { name: "paper's bound", change: Change::View(|view| by_the_paper(view, 0.0)) },
+    Ablation { name: "paper's bound relaxed", change: Change::View(|view| by_the_paper(view, 1.0)) },
 ];
 
 /// The paper's bound in place of ours.
@@ -69,10 +82,18 @@ impl Setting {
     pub fn view(&self, view: &View) -> View {
         let mut view = view.clone();
         view.sampling.tolerance = self.tolerance;
-        if let Some(ablation) = self.ablation {
-            (ablation.change)(&mut view);
+        if let Some(Ablation { change: Change::View(change), .. }) = self.ablation {
+            change(&mut view);
         }
         view
+    }
+
+    /// The part of the method that is left out.
+    pub fn without(&self) -> Without {
+        match self.ablation {
+            Some(Ablation { change: Change::Method(without), .. }) => *without,
+            _ => Without::Nothing,
+        }
     }
 }
 
@@ -95,7 +116,8 @@ mod tests {
     #[test]
     fn every_ablation_changes_how_the_view_is_sampled_and_nothing_else() {
         let view = View::default();
-        for setting in Setting::list(&[Tolerance(Some(0.25))], true).iter().skip(2) {
+        let settings = Setting::list(&[Tolerance(Some(0.25))], true);
+        for setting in settings.iter().skip(2).filter(|setting| setting.without() == Without::Nothing) {
             let mut changed = setting.view(&view);
             let adaptive = View { sampling: changed.sampling, ..view.clone() };
             assert_eq!(changed, adaptive, "{}", setting.name);
@@ -103,5 +125,14 @@ mod tests {
             changed.sampling.tolerance = view.sampling.tolerance;
             assert_ne!(changed, view, "{}", setting.name);
         }
+    }
+
+    #[test]
+    fn parts_of_the_method_are_left_out_one_by_one() {
+        let settings = Setting::list(&[Tolerance(Some(0.25))], true);
+        let mut parts: Vec<Without> = settings.iter().map(Setting::without).collect();
+        parts.retain(|part| *part != Without::Nothing);
+        assert_eq!(parts, [Without::Expansion, Without::Coverage, Without::Greed]);
+        assert_eq!(settings[1].without(), Without::Nothing);
     }
 }

@@ -1,93 +1,76 @@
-//! What adaptive sampling brought for the picture in view: predicted error, cells by class, samples.
+//! The cells of the picture in view by class, as counts and shares.
 
 use egui::{Align2, Color32, Rect, Sense, Ui, pos2, vec2};
-use renderer::CellClasses;
+use renderer::{CellClass, CellClasses};
 
+use crate::overlay::look;
 use crate::viewer::session::Session;
 use crate::viewer::{theme, widgets};
 
-use super::sampling::plain;
-
-/// Classes of cells, from the dearest to the cheapest: name, colour, meaning, and how many there are.
-type Class = (&'static str, Color32, &'static str, fn(&CellClasses) -> u64);
-
-const CLASSES: [Class; 5] = [
-    ("Full", Color32::from_rgb(0xe0, 0x8e, 0x45), "Sampled as a whole", |c| c.full),
-    (
-        "Mixed",
-        Color32::from_rgb(0xe9, 0xcf, 0x7c),
-        "Sampled in some bricks, shown by one colour each in the others",
-        |c| c.mixed,
-    ),
-    ("Super-pixel", theme::ACCENT, "Shown by single colours, without a sample", |c| c.super_pixel),
-    ("Transparent", Color32::from_rgb(0x8b, 0x95, 0xa5), "With nothing to be seen in them", |c| {
-        c.transparent
-    }),
-    ("Occluded", Color32::from_rgb(0x50, 0x58, 0x65), "Behind what lets no light through", |c| c.occluded),
-];
-
 pub fn show(ui: &mut Ui, session: &Session) {
     let Some(picture) = &session.picture else { return };
-    let stats = &picture.stats;
-    ui.scope(|ui| {
-        let predicted = match picture.sampling.tolerance {
-            Some(tolerance) => format!("{} of {tolerance}", plain(stats.predicted_error)),
-            None => "0, sampled in full".into(),
-        };
-        widgets::fact(ui, "Predicted error", predicted)
-            .on_hover_text("The largest that any pixel may have, of the tolerance that it may use up");
-        let evaluations = &stats.evaluations;
-        widgets::fact(ui, "Evaluations", widgets::large(evaluations.done)).on_hover_text(format!(
-            "Kernel weights computed for one particle at one place; {} of them to find out what may be left \
-             out",
-            widgets::large(evaluations.bounds)
-        ));
-    });
-    ui.add_space(4.0);
-    let counts = CLASSES.map(|(.., count)| count(&stats.cells_by_class));
-    stacked(ui, &counts);
-    legend(ui, &counts);
+    let entries = entries(&picture.stats.cells_by_class);
+    stacked(ui, &entries);
+    legend(ui, &entries);
+}
+
+/// A class with its count and its share of all cells.
+struct Entry {
+    class: CellClass,
+    count: u64,
+    share: f64,
+}
+
+/// All classes; of the sampling levels those that there are.
+fn entries(classes: &CellClasses) -> Vec<Entry> {
+    let all = CellClass::ALL.map(|class| classes.count(class)).iter().sum::<u64>().max(1) as f64;
+    CellClass::ALL
+        .into_iter()
+        .map(|class| (class, classes.count(class)))
+        .filter(|(class, count)| *count > 0 || !matches!(class, CellClass::ZAdaptive(_)))
+        .map(|(class, count)| Entry { class, count, share: count as f64 / all })
+        .collect()
+}
+
+/// The colour of a class.
+pub fn colour(class: CellClass) -> Color32 {
+    let [r, g, b] = look(class).rgb;
+    Color32::from_rgb(r, g, b)
 }
 
 /// One bar, divided as the cells are.
-fn stacked(ui: &mut Ui, counts: &[u64; CLASSES.len()]) {
+fn stacked(ui: &mut Ui, entries: &[Entry]) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 10.0), Sense::hover());
     ui.painter().rect_filled(rect, 2, theme::WELL);
     let mut left = rect.left();
-    for ((_, colour, ..), share) in CLASSES.iter().zip(shares(counts)) {
-        let right = left + share as f32 * rect.width();
+    for Entry { class, share, .. } in entries {
+        let right = left + *share as f32 * rect.width();
         let part = Rect::from_min_max(pos2(left, rect.top()), pos2(right, rect.bottom()));
-        ui.painter().rect_filled(part, 2, *colour);
+        ui.painter().rect_filled(part, 2, colour(*class));
         left = right;
     }
 }
 
 /// What the colours are: name, count and share of each class.
-fn legend(ui: &mut Ui, counts: &[u64; CLASSES.len()]) {
+fn legend(ui: &mut Ui, entries: &[Entry]) {
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
-        for (((name, colour, meaning, _), count), share) in CLASSES.iter().zip(counts).zip(shares(counts)) {
+        for Entry { class, count, share } in entries {
             let (rect, line) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
             let swatch = Rect::from_center_size(rect.left_center() + vec2(5.0, 0.0), vec2(10.0, 10.0));
             let painter = ui.painter();
-            painter.rect_filled(swatch, 2, *colour);
+            painter.rect_filled(swatch, 2, colour(*class));
             let font = egui::TextStyle::Body.resolve(ui.style());
             let name_at = rect.left_center() + vec2(18.0, 0.0);
-            painter.text(name_at, Align2::LEFT_CENTER, name, font, theme::MUTED);
+            painter.text(name_at, Align2::LEFT_CENTER, look(*class).name, font, theme::MUTED);
             let number = |place, text: String| {
                 painter.text(place, Align2::RIGHT_CENTER, text, theme::number_font(), theme::TEXT);
             };
             number(rect.right_center() - vec2(64.0, 0.0), widgets::count(*count));
-            number(rect.right_center(), widgets::percent(share));
-            line.on_hover_text(*meaning);
+            number(rect.right_center(), widgets::percent(*share));
+            line.on_hover_text(look(*class).meaning);
         }
     });
-}
-
-/// Of all cells that hold particles.
-fn shares(counts: &[u64; CLASSES.len()]) -> [f64; CLASSES.len()] {
-    let all = counts.iter().sum::<u64>().max(1) as f64;
-    counts.map(|count| count as f64 / all)
 }
 
 #[cfg(test)]
@@ -96,7 +79,12 @@ mod tests {
 
     #[test]
     fn shares_are_of_all_cells() {
-        assert_eq!(shares(&[1, 0, 2, 1, 0]), [0.25, 0.0, 0.5, 0.25, 0.0]);
-        assert_eq!(shares(&[0; 5]), [0.0; 5]);
+        let classes = CellClasses { full: 1, super_pixel: 2, transparent: 1, ..CellClasses::default() };
+        let shares =
+            |classes: &CellClasses| entries(classes).iter().map(|entry| entry.share).collect::<Vec<f64>>();
+        assert_eq!(shares(&classes), [0.25, 0.0, 0.5, 0.25, 0.0]);
+        assert_eq!(shares(&CellClasses::default()), [0.0; 5]);
+        let levels = CellClasses { z_adaptive: [0, 3, 0, 1], ..CellClasses::default() };
+        assert_eq!(shares(&levels), [0.0, 0.0, 0.75, 0.25, 0.0, 0.0, 0.0]);
     }
 }

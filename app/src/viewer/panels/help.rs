@@ -24,6 +24,7 @@ pub fn show(ui: &Ui, open: &mut bool) {
                 group(left, "Files");
                 group(right, "Time");
                 group(right, "Camera");
+                group(right, "Picture");
                 group(right, "Window");
             });
         });

@@ -3,6 +3,7 @@
 use egui::{Ui, vec2};
 
 use crate::viewer::measurement::{Measured, Measurement, State};
+use crate::viewer::overlay::Kind;
 use crate::viewer::session::Session;
 use crate::viewer::shortcuts::Action;
 use crate::viewer::theme;
@@ -12,17 +13,22 @@ use super::sampling::{in_steps, plain};
 
 pub fn show(
     ui: &mut Ui,
-    session: &Session,
+    session: &mut Session,
     measurement: Option<&Measurement>,
-    shows_errors: &mut bool,
     actions: &mut Vec<Action>,
 ) {
     ui.add_space(4.0);
     match measurement.map(|measurement| &measurement.state) {
         Some(State::Done(measured)) => {
             facts(ui, measured);
-            ui.checkbox(shows_errors, "Show the error in the picture")
+            let overlay = &mut session.overlay;
+            let mut shown = overlay.kind == Kind::Measured;
+            let switch = ui
+                .checkbox(&mut shown, "Show the error in the picture")
                 .on_hover_text("Of the worst channel of each pixel; red above the tolerance");
+            if switch.changed() {
+                overlay.kind = if shown { Kind::Measured } else { Kind::Off };
+            }
         }
         state => button(ui, session, state.is_some(), actions),
     }

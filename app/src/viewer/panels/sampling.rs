@@ -1,7 +1,7 @@
 //! How far the picture may be from full sampling, and what may be left out for that.
 
 use egui::{RichText, Slider, SliderClamping, Ui};
-use renderer::SamplingView;
+use renderer::{Bound, SamplingView};
 
 use crate::viewer::session::Session;
 use crate::viewer::theme;
@@ -40,6 +40,7 @@ impl SamplingPanel {
             });
             widgets::row(ui, "Quick choice", |ui| widgets::choice(ui, tolerance, &CHOICES));
             self.tolerance = *tolerance;
+            bound(ui, &mut sampling.bound);
             super_pixels(ui, &mut sampling.super_pixels);
             levels(ui, &mut sampling.z_adaptive);
             if sampling.z_adaptive {
@@ -76,16 +77,33 @@ fn slider(ui: &mut Ui, tolerance: &mut f64) {
     });
 }
 
+fn bound(ui: &mut Ui, bound: &mut Bound) {
+    let choices = [
+        (
+            Bound::Difference,
+            "Difference",
+            "Of the difference from full sampling, in bricks of 2 × 2 rays, 4 slices deep",
+        ),
+        (
+            Bound::Paper,
+            "Interval",
+            "The paper's, of all that a ray may show, in cells of 8 × 8 rays, 16 slices deep: for comparison. \
+             Strict, it saves next to nothing; relaxed, it guarantees nothing",
+        ),
+    ];
+    widgets::row(ui, "Error bound", |ui| widgets::choice(ui, bound, &choices));
+}
+
 fn super_pixels(ui: &mut Ui, on: &mut bool) {
-    let hint = "Bricks (2 × 2 rays, 4 slices deep) whose samples the tolerance cannot tell apart are shown by \
-                one colour each. Without them and without z-levels every brick that is seen is sampled in \
-                full.";
+    let hint = "Bricks whose samples the tolerance cannot tell apart are shown by one colour each. Without them \
+                and without z-levels everything that is seen is sampled in full.";
     widgets::row(ui, "Super-pixels", |ui| ui.checkbox(on, "One colour a brick").on_hover_text(hint));
 }
 
 fn levels(ui: &mut Ui, on: &mut bool) {
-    let hint = "Bricks may be sampled once a ray for their four slices. That is worth more than a super-pixel \
-                only where the bound is relaxed, or without super-pixels.";
+    let hint = "Bricks may be sampled once a ray for their four slices, and cells, by the interval bound, for up \
+                to 16. By the difference bound that is worth more than a super-pixel only where it is relaxed, \
+                or without super-pixels.";
     widgets::row(ui, "z-levels", |ui| ui.checkbox(on, "Longer steps along the ray").on_hover_text(hint));
 }
 

@@ -6,16 +6,25 @@ use crate::viewer::orbit_camera::Side;
 use crate::viewer::session::Session;
 use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::theme;
+use crate::viewer::widgets::Areas;
 
-pub fn show(ui: &mut Ui, session: &Session, flying: bool, panels: bool, actions: &mut Vec<Action>) {
+/// Which switches are on.
+#[derive(Clone, Copy, Debug)]
+pub struct Modes {
+    pub flying: bool,
+    pub inspecting: bool,
+    pub panels: bool,
+}
+
+pub fn show(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Action>) {
     ui.horizontal_centered(|ui| {
         files(ui, actions);
         gap(ui);
         let ready = session.camera.is_some();
-        ui.add_enabled_ui(ready, |ui| camera(ui, flying, actions));
+        ui.add_enabled_ui(ready, |ui| camera(ui, modes, actions));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             call(ui, ui_button("Help", false), Action::Help, actions);
-            call(ui, ui_button("Panels", panels), Action::Panels, actions);
+            call(ui, ui_button("Panels", modes.panels), Action::Panels, actions);
         });
     });
 }
@@ -36,7 +45,7 @@ fn files(ui: &mut Ui, actions: &mut Vec<Action>) {
     });
 }
 
-fn camera(ui: &mut Ui, flying: bool, actions: &mut Vec<Action>) {
+fn camera(ui: &mut Ui, modes: Modes, actions: &mut Vec<Action>) {
     call(ui, ui_button("Reset", false), Action::Reset, actions);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
@@ -45,7 +54,10 @@ fn camera(ui: &mut Ui, flying: bool, actions: &mut Vec<Action>) {
             call(ui, ui_button(side.label(), false), Action::Look(side), actions);
         }
     });
-    call(ui, ui_button("Fly", flying), Action::Fly, actions);
+    call(ui, ui_button("Fly", modes.flying), Action::Fly, actions);
+    gap(ui);
+    let inspect = call(ui, ui_button("Inspect", modes.inspecting), Action::Inspect, actions);
+    Areas::mark(ui, "inspect", inspect.rect);
 }
 
 fn gap(ui: &mut Ui) {

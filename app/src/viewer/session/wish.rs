@@ -6,7 +6,7 @@ use std::time::Instant;
 use renderer::View;
 
 use super::{RangeSource, Session};
-use crate::viewer::render_thread::Job;
+use crate::viewer::render_thread::{Job, Looks};
 
 impl Session {
     /// The job for the renderer, where what is wanted has changed. `room` is the place for the
@@ -18,12 +18,14 @@ impl Session {
         if self.without_picture == Some(*index) && self.playback.playing() {
             return None;
         }
-        let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving };
+        let looks = Looks { cells: self.overlay.needs_cells(), probe: self.probe };
+        let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving, looks };
         if job.view.image.width == 0 || job.view.image.height == 0 {
             return None;
         }
         let same = |asked: &Job| {
-            Arc::ptr_eq(&asked.frame, &job.frame) && asked.view == job.view && asked.moving == job.moving
+            let about = |job: &Job| (job.moving, job.looks);
+            Arc::ptr_eq(&asked.frame, &job.frame) && asked.view == job.view && about(asked) == about(&job)
         };
         if self.asked.as_ref().is_some_and(same) {
             return None;

@@ -9,6 +9,10 @@
 // the weights (their error falls with the brick's width, this one's with its square), and the lower
 // bound of Σ w_j proves coverage.
 
+// Parts that are left out where somebody measures what they are worth.
+override EXTREMES_ONLY: bool = false;
+override NO_COVERAGE: bool = false;
+
 // Lengths and places as in the cell.
 struct Column {
     // The axis where it crosses the middle of the cell, and its direction per unit of depth.
@@ -189,7 +193,8 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
-    let expanded = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let known = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let expanded = select(known, vec4(0.0), EXTREMES_ONLY);
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     let covered = least_weight > 1e-4 * e.weight.value;
     let safe_weight = select(vec4(1.0), least_weight, covered);
@@ -197,7 +202,7 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let upper = bound(e, column, safe_weight, 1.0) + rounding;
     let lower = bound(e, column, safe_weight, -1.0) - rounding;
     // Where one of them is no number, the extremes stay.
-    let better = covered & (lower <= upper);
+    let better = covered & (lower <= upper) & vec4(!EXTREMES_ONLY);
     let low = select(e.low, max(e.low, min(lower, e.high)), better);
     let high = select(e.high, min(e.high, max(upper, e.low)), better);
     // Rounded outward by as much as a sample's quantity may be off.
@@ -206,6 +211,6 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let empty = e.low > e.high;
     return ColumnValues(
         select(least, vec4(EMPTY.x), empty),
-        select(greatest + select(vec4(0.0), vec4(COVERED), covered), vec4(EMPTY.y), empty),
+        select(greatest + select(vec4(0.0), vec4(COVERED), covered & vec4(!NO_COVERAGE)), vec4(EMPTY.y), empty),
     );
 }

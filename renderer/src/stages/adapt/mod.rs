@@ -6,19 +6,23 @@
 
 mod paper;
 
+pub(crate) mod entries;
+
+use std::collections::BTreeMap;
+
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
-use crate::sampling::Bound;
+use crate::sampling::{Bound, Without};
 use crate::scene::Scene;
 use paper::Paper;
 
 /// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
 pub(crate) struct Adapt {
-    /// One a kernel.
-    pipelines: Vec<Pipeline>,
+    /// For each kernel, and for parts of the method to be left out where that was asked for.
+    pipelines: BTreeMap<(u32, Without), Pipeline>,
     paper: Paper,
     /// For each cell of a tile.
     pub cell_values: Buffer,
@@ -41,31 +45,12 @@ const COLUMNS: u64 = 16;
 
 impl Adapt {
     pub(crate) fn new(gpu: &Gpu) -> Adapt {
-        let pipeline = |kernel: &Kernel| {
-            Pipeline::new(
-                gpu,
-                &PipelineDescription {
-                    label: "choose_levels",
-                    sources: &[
-                        FRAME_WGSL,
-                        KERNEL_WGSL,
-                        BUNDLE_WGSL,
-                        TRANSFER_WGSL,
-                        HULL_WGSL,
-                        include_str!("bricks.wgsl"),
-                        include_str!("values.wgsl"),
-                        include_str!("offers.wgsl"),
-                        include_str!("filing.wgsl"),
-                        include_str!("levels.wgsl"),
-                    ],
-                    entry_point: "choose_levels",
-                    constants: &[("KERNEL", f64::from(kernel.code()))],
-                    bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 10]].concat(),
-                },
-            )
+        let complete = |kernel: Kernel| {
+            let variant = (kernel.code(), Without::Nothing);
+            (variant, pipeline(gpu, variant))
         };
         Adapt {
-            pipelines: Kernel::ALL.iter().map(pipeline).collect(),
+            pipelines: Kernel::ALL.map(complete).into(),
             paper: Paper::new(gpu),
             cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
@@ -103,6 +88,12 @@ impl Adapt {
         self.parts.reserve(gpu, filled)
     }
 
+    /// Has the pipeline for this kernel and this part to be left out.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, without: Without) {
+        let variant = (kernel.code(), without);
+        self.pipelines.entry(variant).or_insert_with(|| pipeline(gpu, variant));
+    }
+
     /// Forgets the bounds of all bricks.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(self.slots_taken.raw(), 0, None);
@@ -114,7 +105,8 @@ impl Adapt {
         encoder.clear_buffer(self.work.raw(), 0, None);
     }
 
-    /// Records the analysis of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
+    /// Records the analysis of `bundles` bundles, for which the pipeline is prepared. `shared`: resources
+    /// for [`BUNDLE_BINDINGS`].
     pub(crate) fn record(
         &self,
         gpu: &Gpu,
@@ -139,7 +131,8 @@ impl Adapt {
             &self.work,
         ]
         .map(Buffer::binding);
-        self.pipelines[scene.kernel.code() as usize].dispatch(gpu, pass, &[shared, &own].concat(), bundles);
+        let pipeline = &self.pipelines[&(scene.kernel.code(), scene.sampling.without)];
+        pipeline.dispatch(gpu, pass, &[shared, &own].concat(), bundles);
     }
 
     /// Asks for the numbers of cells to be sampled as a whole and in parts.
@@ -152,4 +145,32 @@ impl Adapt {
         let lists = [&self.bundle_entries, &self.wholes, &self.parts];
         buffers.into_iter().chain(lists).map(Buffer::bytes).sum::<u64>() + self.paper.bytes()
     }
+}
+
+fn pipeline(gpu: &Gpu, (kernel, without): (u32, Without)) -> Pipeline {
+    let left_out = |name, part| (name, f64::from(u8::from(without == part)));
+    let description = PipelineDescription {
+        label: "choose_levels",
+        sources: &[
+            FRAME_WGSL,
+            KERNEL_WGSL,
+            BUNDLE_WGSL,
+            TRANSFER_WGSL,
+            HULL_WGSL,
+            include_str!("bricks.wgsl"),
+            include_str!("values.wgsl"),
+            include_str!("offers.wgsl"),
+            include_str!("filing.wgsl"),
+            include_str!("levels.wgsl"),
+        ],
+        entry_point: "choose_levels",
+        constants: &[
+            ("KERNEL", f64::from(kernel)),
+            left_out("EXTREMES_ONLY", Without::Expansion),
+            left_out("NO_COVERAGE", Without::Coverage),
+            left_out("NO_GREED", Without::Greed),
+        ],
+        bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 10]].concat(),
+    };
+    Pipeline::new(gpu, &description)
 }

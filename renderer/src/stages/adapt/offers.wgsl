@@ -20,6 +20,8 @@ const LEAST_CLASS: u32 = 254u - 63u;
 // A cost as large as the budget, in `spending`.
 const WHOLE: f32 = 262144.0;
 
+const SPENT_ENOUGH: u32 = 1u << 31u;
+
 // Costs by column and class, in shares of the budget.
 var<workgroup> spending: array<atomic<u32>, 1024>;
 
@@ -92,7 +94,13 @@ fn classes_of(offers: Offers, particles: f32) -> Classes {
     );
 }
 
+// All steps in one class: they are taken from front to back, whatever they save.
+override NO_GREED: bool = false;
+
 fn class_of(cost: vec4<f32>, saved: vec4<f32>) -> vec4<u32> {
+    if NO_GREED {
+        return vec4(0u);
+    }
     let score = max(cost, vec4(0.0)) / (chunk.budget * saved);
     let bits = bitcast<vec4<u32>>(score) >> vec4(22u);
     return clamp(bits, vec4(LEAST_CLASS), vec4(LEAST_CLASS + CLASSES - 1u)) - LEAST_CLASS;
@@ -115,7 +123,11 @@ fn spend(column: u32, cost: f32, class_index: u32) {
     if cost > 0.0 {
         // Twice the budget is too much in any company.
         let share = u32(ceil(min(cost / chunk.budget, 2.0) * WHOLE));
-        atomicAdd(&spending[column * CLASSES + class_index], share);
+        let entry = column * CLASSES + class_index;
+        // Far beyond any budget the sum stands still, so that it never starts again from 0.
+        if atomicAdd(&spending[entry], share) >= SPENT_ENOUGH {
+            atomicStore(&spending[entry], SPENT_ENOUGH);
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::frames::Sequence;
 fn job(frame: &Arc<Frame>, width: u32) -> Job {
     let mut view = View::default();
     (view.image.width, view.image.height) = (width, 16);
-    Job { frame: Arc::clone(frame), index: 0, view, moving: false }
+    Job { frame: Arc::clone(frame), index: 0, view, moving: false, looks: Looks::default() }
 }
 
 /// A worker on a small frame, where there is a device.

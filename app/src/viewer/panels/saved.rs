@@ -1,0 +1,27 @@
+//! What adaptive sampling brought for the picture in view: its predicted error, and its samples.
+
+use egui::Ui;
+
+use crate::viewer::session::Session;
+use crate::viewer::widgets;
+
+use super::sampling::plain;
+
+pub fn show(ui: &mut Ui, session: &Session) {
+    let Some(picture) = &session.picture else { return };
+    let stats = &picture.stats;
+    ui.scope(|ui| {
+        let predicted = match picture.sampling.tolerance {
+            Some(tolerance) => format!("{} of {tolerance}", plain(stats.predicted_error)),
+            None => "0, sampled in full".into(),
+        };
+        widgets::fact(ui, "Predicted error", predicted)
+            .on_hover_text("The largest that any pixel may have, of the tolerance that it may use up");
+        let evaluations = &stats.evaluations;
+        widgets::fact(ui, "Evaluations", widgets::large(evaluations.done)).on_hover_text(format!(
+            "Kernel weights computed for one particle at one place; {} of them to find out what may be left \
+             out",
+            widgets::large(evaluations.bounds)
+        ));
+    });
+}

@@ -1,0 +1,77 @@
+//! What the analysis leaves on the device, as the host reads it (`hull.wgsl`).
+
+use bytemuck::{Pod, Zeroable};
+
+/// `CellEntry`: what is known of a cell, and what became of it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct CellEntry {
+    pub values: [f32; 2],
+    /// Place of its bricks + [`FIRST_SLOT`]; less where they are not known.
+    pub slot: u32,
+    pub class_index: u32,
+    pub sampled: [u32; 2],
+    pub coarse: [u32; 2],
+}
+
+/// The least slot that has bricks, and the one of a cell of which only the whole is known.
+pub(crate) const FIRST_SLOT: u32 = 2;
+pub(crate) const WHOLE_KNOWN: u32 = 1;
+
+/// `BundleEntry`: where a bundle ends, and what is charged to its columns.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct BundleEntry {
+    pub end_layer: u32,
+    pub charged: [f32; 16],
+}
+
+/// `ColumnValues`: bounds of the quantity in the four bricks of a column.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct ColumnValues {
+    pub low: [f32; 4],
+    pub high: [f32; 4],
+}
+
+/// `Offers` of `offers.wgsl`: costs of the steps by which the bricks of a column are sampled less.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct Offers {
+    pub first: [f32; 4],
+    pub second: [f32; 4],
+}
+
+impl Offers {
+    /// What it costs in all to show a brick unsampled; `None` where no light comes from it.
+    pub(crate) fn to_show(&self, brick: usize) -> Option<f32> {
+        let cost = self.first[brick] + self.second[brick].max(0.0);
+        (self.first[brick] >= 0.0).then_some(cost)
+    }
+
+    /// What it costs to sample a brick at level 2, where that is a step of its own.
+    pub(crate) fn to_coarsen(&self, brick: usize) -> Option<f32> {
+        (self.first[brick] >= 0.0 && self.second[brick] >= 0.0).then_some(self.first[brick])
+    }
+}
+
+/// What is added to the upper bound of a brick in which every sample meets a particle.
+pub(crate) const COVERED: f32 = 2.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stages::layout::check_layout;
+    use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
+
+    const OFFERS_WGSL: &str = include_str!("offers.wgsl");
+
+    #[test]
+    fn entries_lie_as_the_shader_expects() {
+        let source = [FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL, HULL_WGSL, OFFERS_WGSL].concat();
+        check_layout!(&source, "CellEntry", CellEntry, values, slot, class_index, sampled, coarse);
+        check_layout!(&source, "BundleEntry", BundleEntry, end_layer, charged);
+        check_layout!(&source, "ColumnValues", ColumnValues, low, high);
+        check_layout!(&source, "Offers", Offers, first, second);
+    }
+}
