@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use reference::device::{open, prepare, render, shared};
-use reference::guarantee::{ROUNDING, calm, case, try_out};
+use reference::guarantee::{ROUNDING, calm, case};
 use reference::scenes::{self, Scene, grey};
 use renderer::{
-    BundleDetail, CellClass, CellMap, GpuOptions, KnownValues, Picture, RenderError, Renderer, column_of,
+    Bound, BundleDetail, CellClass, CellMap, GpuOptions, KnownValues, Picture, RenderError, Renderer,
+    column_of,
 };
 
 fn go_on(_: f32) -> ControlFlow<()> {
@@ -23,6 +24,13 @@ fn detail(renderer: &mut Renderer, scene: &renderer::Scene, bundle: [u32; 2]) ->
     renderer.inspect_bundle(scene, bundle, &mut go_on).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The scene as the renderer takes it, analysed even where that hardly pays.
+fn analysed(scene: &Scene) -> renderer::Scene {
+    let mut prepared = prepare(scene);
+    prepared.sampling.anyway = true;
+    prepared
+}
+
 /// Scenes with cells of every class, and at full sampling.
 fn some_scenes() -> Vec<Scene> {
     let mut full = calm(20, 57, 43);
@@ -30,14 +38,33 @@ fn some_scenes() -> Vec<Scene> {
     let mut opaque = calm(28, 57, 43);
     opaque.view.transfer.points = vec![grey(0.0, 0.3, 0.9), grey(1.0, 0.8, 0.9)];
     opaque.view.transfer.reference_length = opaque.view.transfer.reference_length.map(|l| 0.05 * l);
-    (0..12).map(case).chain([calm(20, 97, 72), calm(21, 33, 21), full, opaque]).collect()
+    let scenes = [calm(20, 97, 72), calm(21, 33, 21), full, opaque, coarse(), by_intervals(1.0)];
+    (0..12).map(case).chain(scenes).collect()
+}
+
+/// Nothing may be shown unsampled, but bricks may be sampled once for their four slices.
+fn coarse() -> Scene {
+    let mut scene = calm(29, 57, 43);
+    scene.view.sampling.super_pixels = false;
+    scene.name = "without super-pixels".to_owned();
+    scene
+}
+
+/// By the paper's bound.
+fn by_intervals(relaxation: f64) -> Scene {
+    let mut scene = calm(30, 57, 43);
+    (scene.view.sampling.bound, scene.view.sampling.relaxation) = (Bound::Paper, relaxation);
+    scene.view.sampling.tolerance = Some(0.05);
+    scene.view.sampling.super_pixels = false;
+    scene.name = format!("by intervals, relaxed {relaxation}");
+    scene
 }
 
 #[test]
 fn classes_are_counted_as_in_the_statistics() {
-    let mut seen = [0; CellClass::ALL.len()];
+    let mut seen = [0_u64; CellClass::ALL.len()];
     for scene in some_scenes() {
-        let (picture, map) = map_of(&mut shared(), &prepare(&scene));
+        let (picture, map) = map_of(&mut shared(), &analysed(&scene));
         assert_eq!(map.classes(), picture.stats.cells_by_class, "{}", scene.name);
         assert_eq!(map.bundles.len() as u64, picture.stats.bundles, "{}", scene.name);
         let cells = || map.bundles.iter().flat_map(|bundle| &bundle.cells);
@@ -48,12 +75,13 @@ fn classes_are_counted_as_in_the_statistics() {
         assert!(seen[class.index()] > 0, "{class:?} is never met: {seen:?}");
     }
     assert!(seen[CellClass::Occluded.index()] > 0, "{seen:?}");
+    assert!(seen[CellClass::ZAdaptive(2).index()] > 0 && seen[2..6].iter().sum::<u64>() > 100, "{seen:?}");
 }
 
 #[test]
 fn the_largest_charge_is_the_predicted_error() {
     for scene in some_scenes() {
-        let (picture, map) = map_of(&mut shared(), &prepare(&scene));
+        let (picture, map) = map_of(&mut shared(), &analysed(&scene));
         let charges = map.bundles.iter().flat_map(|bundle| bundle.charged);
         let largest = f64::from(charges.fold(0.0, f32::max));
         assert_eq!(largest, picture.stats.predicted_error, "{}", scene.name);
@@ -63,7 +91,7 @@ fn the_largest_charge_is_the_predicted_error() {
 #[test]
 fn cells_hold_the_particles_of_the_grid() {
     for scene in some_scenes() {
-        let prepared = prepare(&scene);
+        let prepared = analysed(&scene);
         let (_, map) = map_of(&mut shared(), &prepared);
         let grid = shared().inspect_grid(&prepared).unwrap();
         let expected: BTreeMap<_, _> =
@@ -81,11 +109,12 @@ fn cells_hold_the_particles_of_the_grid() {
 /// No pixel is farther from full sampling than what is charged to its own column.
 fn assert_charged_for(scene: &Scene) {
     let mut renderer = shared();
-    let trial = try_out(&mut renderer, scene);
-    // Rendered once more, as `try_out` has prepared a scene of its own.
-    let (picture, map) = map_of(&mut renderer, &prepare(scene));
-    assert_eq!(picture.pixels, trial.adaptive.pixels, "{}", scene.name);
-    for (index, (full, adaptive)) in (0..).zip(trial.full.pixels.iter().zip(&trial.adaptive.pixels)) {
+    let prepared = analysed(scene);
+    let mut unadapted = prepared.clone();
+    unadapted.sampling.tolerance = None;
+    let full = render(&mut renderer, &unadapted);
+    let (picture, map) = map_of(&mut renderer, &prepared);
+    for (index, (full, adaptive)) in (0..).zip(full.pixels.iter().zip(&picture.pixels)) {
         let pixel = [index % picture.width, index / picture.width];
         let error = full.iter().zip(adaptive).map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
         let charged = f64::from(map.charged(pixel));
@@ -99,13 +128,14 @@ fn assert_charged_for(scene: &Scene) {
 
 #[test]
 fn no_pixel_is_farther_off_than_its_column_is_charged() {
-    (0..40).map(case).chain([calm(20, 97, 72)]).for_each(|scene| assert_charged_for(&scene));
+    let scenes = [calm(20, 97, 72), coarse(), by_intervals(0.0)];
+    (0..40).map(case).chain(scenes).for_each(|scene| assert_charged_for(&scene));
 }
 
 #[test]
 fn little_memory_makes_the_same_map() {
     for scene in [calm(20, 97, 72), calm(24, 40, 30), case(3), case(8)] {
-        let prepared = prepare(&scene);
+        let prepared = analysed(&scene);
         let (_, whole) = map_of(&mut shared(), &prepared);
         let mut little = open(&GpuOptions { memory: Some(1 << 20), ..GpuOptions::default() });
         let (picture, tiled) = map_of(&mut little, &prepared);
@@ -126,7 +156,7 @@ fn a_bundle_in_several_tiles_behind_each_other_is_put_together() {
     deep.view.camera.as_mut().expect("plain scenes have a camera").near = Some(0.01);
     deep.view.sampling.rate = 8.0;
     deep.view.sampling.tolerance = Some(0.01);
-    let prepared = prepare(&deep);
+    let prepared = analysed(&deep);
     let mut little = open(&GpuOptions { memory: Some(192 << 10), ..GpuOptions::default() });
     let (picture, map) = map_of(&mut little, &prepared);
     assert_eq!(map.classes(), picture.stats.cells_by_class);
@@ -144,7 +174,7 @@ fn looking_at_cells_costs_the_next_picture_nothing() {
     let (second, map) = map_of(&mut renderer, &prepared);
     detail(&mut renderer, &prepared, [2, 1]);
     let third = render(&mut renderer, &prepared);
-    assert_eq!((&first.pixels, &first.pixels), (&second.pixels, &third.pixels));
+    assert!(first.pixels == second.pixels && first.pixels == third.pixels, "it is the same picture");
     assert_eq!([second.stats.milliseconds.total, third.stats.milliseconds.total], [0.0, 0.0]);
     // And a picture that shares its grid still does.
     let mut other = prepared.clone();
@@ -179,7 +209,7 @@ fn assert_charges_add_up(name: &str, detail: &BundleDetail, budget: f32) {
 #[test]
 fn a_bundle_in_detail_is_what_the_map_says_of_it() {
     for scene in some_scenes() {
-        let prepared = prepare(&scene);
+        let prepared = analysed(&scene);
         let (_, map) = map_of(&mut shared(), &prepared);
         for place in [[0, 0], map.count.map(|count| count / 2), map.count.map(|count| count - 1)] {
             let detail = detail(&mut shared(), &prepared, place);
@@ -187,7 +217,7 @@ fn a_bundle_in_detail_is_what_the_map_says_of_it() {
             let cells: Vec<_> = detail.cells.iter().map(|cell| cell.cell).collect();
             assert_eq!((&cells, detail.end_layer), (&bundle.cells, bundle.end_layer), "{}", scene.name);
             assert_eq!((detail.charged, detail.layers), (bundle.charged, map.layers), "{}", scene.name);
-            if let Some(budget) = detail.budget {
+            if let Some(budget) = detail.budget.filter(|_| detail.bound == Bound::Difference) {
                 assert_charges_add_up(&scene.name, &detail, budget);
             }
         }
@@ -198,7 +228,7 @@ fn a_bundle_in_detail_is_what_the_map_says_of_it() {
 fn bricks_are_bounded_inside_their_cell() {
     let mut covered_bricks = 0;
     for scene in some_scenes() {
-        let prepared = prepare(&scene);
+        let prepared = analysed(&scene);
         let detail = detail(&mut shared(), &prepared, [2, 2]);
         for cell in &detail.cells {
             assert!(cell.depths[0] < cell.depths[1], "{}", scene.name);
@@ -218,10 +248,34 @@ fn bricks_are_bounded_inside_their_cell() {
 }
 
 #[test]
+fn the_papers_bound_is_known_slab_by_slab() {
+    let prepared = prepare(&by_intervals(1.0));
+    let by_slabs = detail(&mut shared(), &prepared, [2, 2]);
+    assert!(by_slabs.cells.iter().all(|cell| cell.bricks.is_none()));
+    let mut ours = prepared.clone();
+    ours.sampling.bound = Bound::Difference;
+    let by_bricks = detail(&mut shared(), &ours, [2, 2]);
+    let mut between = 0;
+    for (slabs, bricks) in by_slabs.cells.iter().zip(&by_bricks.cells) {
+        assert_eq!((slabs.cell.layer, slabs.depths), (bricks.cell.layer, bricks.depths));
+        assert!(slabs.slabs.is_some() && bricks.slabs.is_none() && bricks.bricks.is_some());
+        let [KnownValues::Between { low: a, high: b, .. }, KnownValues::Between { low: c, high: d, .. }] =
+            [slabs.values, bricks.values]
+        else {
+            continue;
+        };
+        // Both have the extremes of the same particles.
+        assert!((a - c).abs() < 1e-4 && (b - d).abs() < 1e-4, "[{a}, {b}] and [{c}, {d}]");
+        between += 1;
+    }
+    assert!(between > 5, "{between}");
+}
+
+#[test]
 fn a_full_picture_charges_nothing() {
     let mut scene = calm(20, 57, 43);
     scene.view.sampling.tolerance = None;
-    let (_, map) = map_of(&mut shared(), &prepare(&scene));
+    let (_, map) = map_of(&mut shared(), &analysed(&scene));
     assert!(map.bundles.iter().all(|bundle| bundle.charged == [0.0; 16]));
     assert!(map.bundles.iter().flat_map(|bundle| &bundle.cells).all(|cell| cell.class == CellClass::Full));
     let inside = (0..8).flat_map(|y| (0..8).map(move |x| column_of([x, y])));

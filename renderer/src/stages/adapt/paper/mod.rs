@@ -11,6 +11,8 @@
 //! Extremes of the quantity in each slab, and its coverage, stay until the grid or the quantity changes;
 //! intervals and choices are made anew for each picture.
 
+use bytemuck::{Pod, Zeroable};
+
 use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, TRANSFER_WGSL};
 use super::Adapt;
 use crate::error::RenderError;
@@ -29,8 +31,10 @@ const SOURCES: [&str; 8] = [
 
 /// `CellBounds` of `cells.wgsl`.
 #[repr(C)]
-struct CellBounds {
-    values: [[f32; 2]; 16],
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct CellBounds {
+    /// Of each slab, as bricks have them.
+    pub values: [[f32; 2]; 16],
     is_surface: [u32; 4],
     levels: [[f32; 8]; 5],
     front: [f32; 8],
@@ -39,7 +43,7 @@ struct CellBounds {
 pub(super) struct Paper {
     pipeline: Pipeline,
     /// [`CellBounds`] of each slot.
-    bounds: Buffer,
+    pub bounds: Buffer,
 }
 
 impl Paper {
