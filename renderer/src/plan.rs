@@ -40,7 +40,7 @@ const WORD: u64 = 4;
 const CELL_STRIDE: u64 = 32;
 /// Bytes of an analysed cell in the widest of its arrays, and in all of them: those of both bounds.
 const FILLED_STRIDE: u64 = 512;
-const FILLED_BYTES: u64 = 1616;
+const FILLED_BYTES: u64 = 1632;
 
 impl TileLimits {
     /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:

@@ -6,8 +6,9 @@ const GROUP_CELLS: u32 = 12u;
 
 // What is known of a cell that holds particles.
 struct CellBounds {
-    // Of each slab: these stay as long as the quantity does.
+    // Of each slab, and 1 where any of them is not EMPTY and not COVERED: these stay as long as the quantity.
     values: array<vec2<f32>, SLABS>,
+    is_surface: u32,
     // Of the cell at each level, and of all cells before it at level 0, relaxed: of one choice.
     levels: array<Interval, LEVELS>,
     front: Interval,
@@ -19,10 +20,12 @@ const OCCLUDED: f32 = 0.0625;
 // outward, so that what is transparent may not be so to the last bit.
 const NEGLIGIBLE: f32 = 0.00025;
 
-// The group's cells, their places in `bounds`, and bits of those whose slabs are not known yet.
+// The group's cells, their places in `bounds`, and bits of those whose slabs are not known yet, and of those
+// at a surface.
 var<workgroup> group: array<u32, GROUP_CELLS>;
 var<workgroup> places: array<u32, GROUP_CELLS>;
 var<workgroup> unknown: atomic<u32>;
+var<workgroup> surfaces: atomic<u32>;
 var<workgroup> extremes: array<Extremes, 192>;
 // The front after the group.
 var<workgroup> passed: Front;
@@ -67,18 +70,31 @@ fn find_place(number: u32) {
     }
 }
 
-// Nothing is known of a crowded cell: it may let all light through, and is sampled at level 0.
-fn is_crowd(cell: u32) -> bool {
-    return cells[cell] - first_of_cell(cell) > CROWD;
-}
-
-// Values of a slab of which nothing is known.
+// Values of a slab of which nothing is known: it may let all light through.
 const ANYTHING: vec2<f32> = vec2(0.0, 1.0);
+
+// Finds the values of the slabs of a cell of the group. Nothing is known of a crowded cell.
+fn find_slabs(number: u32, slope: vec2<f32>, lane: u32) {
+    let cell = group[number];
+    let first = first_of_cell(cell);
+    let crowded = cells[cell] - first > CROWD;
+    look_into_cell(cell % tile.layers, first, select(cells[cell], first, crowded), slope, lane);
+    workgroupBarrier();
+    if lane < SLABS {
+        let values = select(values_of_slab(lane), ANYTHING, crowded);
+        bounds[places[number]].values[lane] = values;
+        if values.x >= 0.0 && values.y < COVERED {
+            atomicOr(&surfaces, 1u << number);
+        }
+    }
+    workgroupBarrier();
+}
 
 // Has the values of the slabs of all cells of the group in `bounds`.
 fn know_slabs(count: u32, slope: vec2<f32>, lane: u32) {
     if lane == 0u {
         atomicStore(&unknown, 0u);
+        atomicStore(&surfaces, 0u);
     }
     workgroupBarrier();
     if lane < count {
@@ -87,15 +103,11 @@ fn know_slabs(count: u32, slope: vec2<f32>, lane: u32) {
     let missing = workgroupUniformLoad(&unknown);
     for (var i = 0u; i < count; i += 1u) {
         if (missing >> i & 1u) == 1u {
-            let cell = group[i];
-            let first = first_of_cell(cell);
-            look_into_cell(cell % tile.layers, first, select(cells[cell], first, is_crowd(cell)), slope, lane);
-            workgroupBarrier();
-            if lane < SLABS {
-                bounds[places[i]].values[lane] = select(values_of_slab(lane), ANYTHING, is_crowd(cell));
-            }
-            workgroupBarrier();
+            find_slabs(i, slope, lane);
         }
+    }
+    if lane < count && (missing >> lane & 1u) == 1u {
+        bounds[places[lane]].is_surface = atomicLoad(&surfaces) >> lane & 1u;
     }
     storageBarrier();
     workgroupBarrier();

@@ -42,8 +42,12 @@ fn interval_of(place: u32, kind: u32, slack: vec4<f32>) -> Interval {
 }
 
 // Whether a choice may be made for a cell, whatever stands around it: no cell's coarse level may use up the
-// budget alone, and this is never relaxed (l_max of Sec. 4.2).
+// budget alone, and this is never relaxed (l_max of Sec. 4.2). Cells at a surface stay as they are, since
+// relaxation would have it that they are not.
 fn is_allowed(place: u32, kind: u32, budget: f32) -> bool {
+    if bounds[place].is_surface != 0u {
+        return false;
+    }
     if kind == SUPER_PIXEL {
         return chunk.super_pixels != 0u;
     }
@@ -122,7 +126,7 @@ fn choose_cells(index: u32, front: Front) -> f32 {
             note_class(cell, CELLS_TRANSPARENT, 0u);
             continue;
         }
-        let choice = choose(place, back, select(budget, 0.0, is_crowd(cell)));
+        let choice = choose(place, back, budget);
         back = behind(choice.interval, back);
         adapted |= choice.kind > 0u;
         file_cell(cell, place, choice.kind);

@@ -3,9 +3,10 @@
 //! composited along the rays of a bundle, whose width is to stay below the tolerance; super-pixels; and
 //! the relaxation of the lower bounds.
 //!
-//! Two things differ. No surface detector: a slab in which some ray may miss all particles may have no
-//! opacity, which is a bound where the paper leaves cells out of account. And the fourth channel is
-//! bounded too, as the opacity that it is.
+//! Three things differ. In place of a detector of surface particles, a cell is at the surface where some
+//! ray may miss all particles of a slab that holds any: like the paper's surface cells it stays at level 0,
+//! but its interval holds for such rays too. The fourth channel is bounded like the others, as the opacity
+//! that it is. And cells that nothing is seen of are left out.
 //!
 //! Extremes of the quantity in each slab, and its coverage, stay until the grid or the quantity changes;
 //! intervals and choices are made anew for each picture.
@@ -34,6 +35,7 @@ const SOURCES: [&str; 8] = [
 pub(crate) struct CellBounds {
     /// Of each slab, as bricks have them.
     pub values: [[f32; 2]; 16],
+    is_surface: [u32; 4],
     levels: [[f32; 8]; 5],
     front: [f32; 8],
 }
@@ -102,6 +104,6 @@ mod tests {
 
     #[test]
     fn bounds_lie_as_the_shader_expects() {
-        check_layout!(&SOURCES.concat(), "CellBounds", CellBounds, values, levels, front);
+        check_layout!(&SOURCES.concat(), "CellBounds", CellBounds, values, is_surface, levels, front);
     }
 }

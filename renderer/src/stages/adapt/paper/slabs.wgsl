@@ -92,20 +92,16 @@ fn look_into_cell(layer: u32, first: u32, end: u32, slope: vec2<f32>, lane: u32)
 
 // Values of a slab, as hull.wgsl has them, from what all lanes found.
 fn values_of_slab(slab: u32) -> vec2<f32> {
-    var low = FAR;
-    var high = 0.0;
     var covered = ALL_SLABS;
-    for (var column = 0u; column < COLUMNS; column += 1u) {
-        var held = 0u;
-        for (var i = column; i < LANES; i += COLUMNS) {
-            held |= found[i].held;
-        }
-        covered &= held;
+    for (var i = 0u; i < COLUMNS; i += 1u) {
+        covered &= found[i].held | found[i + 16u].held | found[i + 32u].held | found[i + 48u].held;
     }
-    for (var i = slab; i < LANES; i += SLABS) {
-        low = min(low, found[i].low);
-        high = max(high, found[i].high);
-    }
+    let a = found[slab];
+    let b = found[slab + 16u];
+    let c = found[slab + 32u];
+    let d = found[slab + 48u];
+    let low = min(min(a.low, b.low), min(c.low, d.low));
+    let high = max(max(a.high, b.high), max(c.high, d.high));
     let cover = select(0.0, COVERED, (covered >> slab & 1u) == 1u);
     // Rounded outward by as much as a sample's quantity may be off.
     let values = vec2(max(low - 2e-6, 0.0), min(high + 2e-6, 1.0) + cover);
