@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use reference::device::{open, prepare, render, shared};
-use reference::guarantee::{ROUNDING, calm, case};
+use reference::device::{open, render, shared};
+use reference::guarantee::{ROUNDING, calm, case, prepare_anyway};
 use reference::scenes::{self, Scene, grey};
 use renderer::{
     Bound, BundleDetail, CellClass, CellMap, GpuOptions, KnownValues, Picture, RenderError, Renderer,
@@ -22,13 +22,6 @@ fn map_of(renderer: &mut Renderer, scene: &renderer::Scene) -> (Picture, CellMap
 
 fn detail(renderer: &mut Renderer, scene: &renderer::Scene, bundle: [u32; 2]) -> BundleDetail {
     renderer.inspect_bundle(scene, bundle, &mut go_on).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// The scene as the renderer takes it, analysed even where that hardly pays.
-fn analysed(scene: &Scene) -> renderer::Scene {
-    let mut prepared = prepare(scene);
-    prepared.sampling.anyway = true;
-    prepared
 }
 
 /// Scenes with cells of every class, and at full sampling.
@@ -64,7 +57,7 @@ fn by_intervals(relaxation: f64) -> Scene {
 fn classes_are_counted_as_in_the_statistics() {
     let mut seen = [0_u64; CellClass::ALL.len()];
     for scene in some_scenes() {
-        let (picture, map) = map_of(&mut shared(), &analysed(&scene));
+        let (picture, map) = map_of(&mut shared(), &prepare_anyway(&scene));
         assert_eq!(map.classes(), picture.stats.cells_by_class, "{}", scene.name);
         assert_eq!(map.bundles.len() as u64, picture.stats.bundles, "{}", scene.name);
         let cells = || map.bundles.iter().flat_map(|bundle| &bundle.cells);
@@ -81,7 +74,7 @@ fn classes_are_counted_as_in_the_statistics() {
 #[test]
 fn the_largest_charge_is_the_predicted_error() {
     for scene in some_scenes() {
-        let (picture, map) = map_of(&mut shared(), &analysed(&scene));
+        let (picture, map) = map_of(&mut shared(), &prepare_anyway(&scene));
         let charges = map.bundles.iter().flat_map(|bundle| bundle.charged);
         let largest = f64::from(charges.fold(0.0, f32::max));
         assert_eq!(largest, picture.stats.predicted_error, "{}", scene.name);
@@ -91,7 +84,7 @@ fn the_largest_charge_is_the_predicted_error() {
 #[test]
 fn cells_hold_the_particles_of_the_grid() {
     for scene in some_scenes() {
-        let prepared = analysed(&scene);
+        let prepared = prepare_anyway(&scene);
         let (_, map) = map_of(&mut shared(), &prepared);
         let grid = shared().inspect_grid(&prepared).unwrap();
         let expected: BTreeMap<_, _> =
@@ -109,7 +102,7 @@ fn cells_hold_the_particles_of_the_grid() {
 /// No pixel is farther from full sampling than what is charged to its own column.
 fn assert_charged_for(scene: &Scene) {
     let mut renderer = shared();
-    let prepared = analysed(scene);
+    let prepared = prepare_anyway(scene);
     let mut unadapted = prepared.clone();
     unadapted.sampling.tolerance = None;
     let full = render(&mut renderer, &unadapted);
@@ -135,7 +128,7 @@ fn no_pixel_is_farther_off_than_its_column_is_charged() {
 #[test]
 fn little_memory_makes_the_same_map() {
     for scene in [calm(20, 97, 72), calm(24, 40, 30), case(3), case(8)] {
-        let prepared = analysed(&scene);
+        let prepared = prepare_anyway(&scene);
         let (_, whole) = map_of(&mut shared(), &prepared);
         let mut little = open(&GpuOptions { memory: Some(1 << 20), ..GpuOptions::default() });
         let (picture, tiled) = map_of(&mut little, &prepared);
@@ -156,7 +149,7 @@ fn a_bundle_in_several_tiles_behind_each_other_is_put_together() {
     deep.view.camera.as_mut().expect("plain scenes have a camera").near = Some(0.01);
     deep.view.sampling.rate = 8.0;
     deep.view.sampling.tolerance = Some(0.01);
-    let prepared = analysed(&deep);
+    let prepared = prepare_anyway(&deep);
     let mut little = open(&GpuOptions { memory: Some(192 << 10), ..GpuOptions::default() });
     let (picture, map) = map_of(&mut little, &prepared);
     assert_eq!(map.classes(), picture.stats.cells_by_class);
@@ -169,7 +162,7 @@ fn a_bundle_in_several_tiles_behind_each_other_is_put_together() {
 #[test]
 fn looking_at_cells_costs_the_next_picture_nothing() {
     let mut renderer = shared();
-    let prepared = prepare(&calm(25, 57, 43));
+    let prepared = prepare_anyway(&calm(25, 57, 43));
     let first = render(&mut renderer, &prepared);
     let (second, map) = map_of(&mut renderer, &prepared);
     detail(&mut renderer, &prepared, [2, 1]);
@@ -183,14 +176,14 @@ fn looking_at_cells_costs_the_next_picture_nothing() {
     assert_eq!((changed.stats.milliseconds.grid, changed.stats.evaluations.bounds), (0.0, 0));
     assert_ne!(map, changed_map);
     // A grid that was looked at meanwhile is another one.
-    renderer.inspect_grid(&prepare(&calm(26, 57, 43))).unwrap();
+    renderer.inspect_grid(&prepare_anyway(&calm(26, 57, 43))).unwrap();
     assert!(map_of(&mut renderer, &other).1 == changed_map);
 }
 
 #[test]
 fn a_cancelled_map_leaves_no_trace() {
     let mut renderer = shared();
-    let prepared = prepare(&calm(27, 57, 43));
+    let prepared = prepare_anyway(&calm(27, 57, 43));
     let cancelled = renderer.render_with_cells(&prepared, &mut |_| ControlFlow::Break(()));
     assert!(matches!(cancelled, Err(RenderError::Cancelled)), "{:?}", cancelled.err());
     let (picture, map) = map_of(&mut renderer, &prepared);
@@ -209,7 +202,7 @@ fn assert_charges_add_up(name: &str, detail: &BundleDetail, budget: f32) {
 #[test]
 fn a_bundle_in_detail_is_what_the_map_says_of_it() {
     for scene in some_scenes() {
-        let prepared = analysed(&scene);
+        let prepared = prepare_anyway(&scene);
         let (_, map) = map_of(&mut shared(), &prepared);
         for place in [[0, 0], map.count.map(|count| count / 2), map.count.map(|count| count - 1)] {
             let detail = detail(&mut shared(), &prepared, place);
@@ -228,7 +221,7 @@ fn a_bundle_in_detail_is_what_the_map_says_of_it() {
 fn bricks_are_bounded_inside_their_cell() {
     let mut covered_bricks = 0;
     for scene in some_scenes() {
-        let prepared = analysed(&scene);
+        let prepared = prepare_anyway(&scene);
         let detail = detail(&mut shared(), &prepared, [2, 2]);
         for cell in &detail.cells {
             assert!(cell.depths[0] < cell.depths[1], "{}", scene.name);
@@ -249,7 +242,7 @@ fn bricks_are_bounded_inside_their_cell() {
 
 #[test]
 fn the_papers_bound_is_known_slab_by_slab() {
-    let prepared = prepare(&by_intervals(1.0));
+    let prepared = prepare_anyway(&by_intervals(1.0));
     let by_slabs = detail(&mut shared(), &prepared, [2, 2]);
     assert!(by_slabs.cells.iter().all(|cell| cell.bricks.is_none()));
     let mut ours = prepared.clone();
@@ -275,7 +268,7 @@ fn the_papers_bound_is_known_slab_by_slab() {
 fn a_full_picture_charges_nothing() {
     let mut scene = calm(20, 57, 43);
     scene.view.sampling.tolerance = None;
-    let (_, map) = map_of(&mut shared(), &analysed(&scene));
+    let (_, map) = map_of(&mut shared(), &prepare_anyway(&scene));
     assert!(map.bundles.iter().all(|bundle| bundle.charged == [0.0; 16]));
     assert!(map.bundles.iter().flat_map(|bundle| &bundle.cells).all(|cell| cell.class == CellClass::Full));
     let inside = (0..8).flat_map(|y| (0..8).map(move |x| column_of([x, y])));
@@ -286,4 +279,14 @@ fn a_full_picture_charges_nothing() {
         }),
         [4; 16]
     );
+}
+
+#[test]
+fn the_bound_of_the_paper_has_no_bricks() {
+    let mut scene = calm(20, 57, 43);
+    scene.view.sampling.bound = Bound::Paper;
+    let prepared = prepare_anyway(&scene);
+    render(&mut shared(), &prepared);
+    let detail = detail(&mut shared(), &prepared, [3, 2]);
+    assert!(!detail.cells.is_empty() && detail.cells.iter().all(|cell| cell.bricks.is_none()));
 }

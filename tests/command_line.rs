@@ -332,10 +332,13 @@ fn agree(cell: &str, value: &serde_json::Value) -> bool {
 #[test]
 fn a_bench_writes_tables_that_agree_and_plots() {
     let folder = folder();
-    let arguments = ["bench", "demo", "--frames", "3..5", "--size", "96x64", "--rounds", "2", "--ablations"];
+    let arguments =
+        ["bench", "demo", "--frames", "3..5", "--size", "256x176", "--rounds", "1", "--ablations"];
     let more = ["--tolerances", "0.01", "--discretisation", "--out", "results"];
     let bench = sphcast(folder.path(), &[&arguments[..], &more].concat());
-    assert_eq!((bench.status, bench.err.as_str()), (0, ""));
+    assert_eq!(bench.status, 0);
+    // Only relaxation may break the tolerance.
+    assert!(bench.err.lines().all(|line| line.contains(" relaxed: the error is above")), "{}", bench.err);
     let results = folder.path().join("results");
     let plots = ["error-over-frames.svg", "time-against-error.svg", "time-over-frames.svg"];
     assert_eq!(
@@ -350,7 +353,7 @@ fn a_bench_writes_tables_that_agree_and_plots() {
     let json: serde_json::Value =
         serde_json::from_slice(&fs::read(results.join("bench.json")).unwrap()).unwrap();
     assert_eq!((&json["complete"], &json["frames"]), (&true.into(), &2.into()));
-    for (table, file, count) in [("settings", "settings.csv", 3), ("by_frame", "frames.csv", 6)] {
+    for (table, file, count) in [("settings", "settings.csv", 10), ("by_frame", "frames.csv", 20)] {
         let rows = rows(&results.join(file));
         assert_eq!((rows.len(), json[table].as_array().unwrap().len()), (count, count), "{file}");
         for (row, value) in rows.iter().zip(json[table].as_array().unwrap()) {

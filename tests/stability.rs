@@ -4,7 +4,7 @@
 use glam::DVec3;
 use reference::Particle;
 use reference::compare::compare;
-use reference::device::{open, picture, shared};
+use reference::device::{open, shared};
 use reference::extremes;
 use reference::guarantee::{alike_but_for_decisions, calm, try_out};
 use reference::picture::Image;
@@ -192,7 +192,7 @@ fn changed(scene: &Scene) -> Vec<(String, Scene)> {
 fn unit_place_and_order_change_little() {
     for (scene, tolerance) in base_scenes().iter().flat_map(|scene| TOLERANCES.map(|e| (scene, e))) {
         let scene = with_tolerance(scene, tolerance);
-        let before = picture(&scene);
+        let before = Image::from(&try_out(&mut shared(), &scene).adaptive);
         for (what, after) in changed(&scene) {
             let trial = try_out(&mut shared(), &after);
             assert_eq!(trial.violation(), None, "{what}");

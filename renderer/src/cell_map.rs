@@ -198,6 +198,8 @@ pub struct CellDetail {
     pub bricks: Option<Box<CellBricks>>,
     /// By the paper's bound.
     pub slabs: Option<Box<[KnownValues; CELL_SLICES as usize]>>,
+    /// With the bricks: colour and opacity that stand for each column where none of it is sampled.
+    pub shown: Option<Box<[[f32; 4]; COLUMNS]>>,
 }
 
 impl CellDetail {

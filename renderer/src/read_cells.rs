@@ -181,6 +181,7 @@ impl Renderer {
                 cell,
                 values: entry.map_or(KnownValues::Unknown, |entry| KnownValues::of(entry.values)),
                 bricks: None,
+                shown: None,
                 slabs: None,
             });
         }
@@ -197,7 +198,7 @@ impl Renderer {
         let known = || entries.iter().map(|entry| entry.slot).filter(|slot| *slot >= FIRST_SLOT);
         let mut bricks = self.read_bricks(&known().collect::<Vec<u32>>())?.into_iter();
         for (cell, entry) in cells.iter_mut().zip(entries) {
-            cell.bricks = (entry.slot >= FIRST_SLOT).then(|| bricks.next()).flatten().map(Box::new);
+            (cell.bricks, cell.shown) = (entry.slot >= FIRST_SLOT).then(|| bricks.next()).flatten().unzip();
         }
         Ok(())
     }
@@ -227,8 +228,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Reads the bricks of cells with these slots.
-    fn read_bricks(&self, slots: &[u32]) -> Result<Vec<CellBricks>, RenderError> {
+    /// Reads the bricks of cells with these slots, and what stands for their columns.
+    fn read_bricks(&self, slots: &[u32]) -> Result<Vec<ReadBricks>, RenderError> {
         let places: Vec<Range<u64>> = slots
             .iter()
             .map(|slot| u64::from(slot - FIRST_SLOT) * COLUMNS as u64)
@@ -240,9 +241,11 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let values = self.adapt.bricks.read_ranges(&self.gpu, &mut encoder, &places);
         let offers = self.adapt.offers.read_ranges(&self.gpu, &mut encoder, &places);
+        let shows = self.adapt.shows.read_ranges(&self.gpu, &mut encoder, &places);
         self.gpu.queue.submit([encoder.finish()]);
         let values: Vec<ColumnValues> = values.take(&self.gpu)?;
         let offers: Vec<Offers> = offers.take(&self.gpu)?;
+        let shows: Vec<[f32; 4]> = shows.take(&self.gpu)?;
         let column = |place: usize| {
             std::array::from_fn(|brick| Brick {
                 values: KnownValues::of([values[place].low[brick], values[place].high[brick]]),
@@ -250,10 +253,17 @@ impl Renderer {
                 coarse_charge: offers[place].to_coarsen(brick),
             })
         };
-        let cell = |number: usize| std::array::from_fn(|c| column(number * COLUMNS + c));
+        let cell = |number: usize| {
+            let bricks = std::array::from_fn(|c| column(number * COLUMNS + c));
+            let shown = std::array::from_fn(|c| shows[number * COLUMNS + c]);
+            (Box::new(bricks), Box::new(shown))
+        };
         Ok((0..slots.len()).map(cell).collect())
     }
 }
+
+/// The bricks of a cell, and what stands for each of its columns where none is sampled.
+type ReadBricks = (Box<CellBricks>, Box<[[f32; 4]; COLUMNS]>);
 
 /// A bundle of which nothing is known yet.
 fn blank(job: &Job, bundle: [u32; 2]) -> BundleDetail {

@@ -201,6 +201,13 @@ pub struct Trial {
     pub comparison: Comparison,
 }
 
+/// `scene` as the renderer takes it, to be sampled adaptively even where that is not worth its while.
+pub fn prepare_anyway(scene: &Scene) -> renderer::Scene {
+    let mut prepared = prepare(scene);
+    prepared.sampling.anyway = true;
+    prepared
+}
+
 /// Renders `scene`, which has a tolerance, both ways; adaptively even where that is not worth its while.
 /// The grid of particles stays the same, and with it the order of all sums: what differs is the sampling.
 pub fn try_out(renderer: &mut Renderer, scene: &Scene) -> Trial {
@@ -210,8 +217,8 @@ pub fn try_out(renderer: &mut Renderer, scene: &Scene) -> Trial {
 /// The same with a part of the method left out.
 pub fn try_without(renderer: &mut Renderer, scene: &Scene, part: Without) -> Trial {
     let tolerance = scene.view.sampling.tolerance.expect("a trial needs a tolerance");
-    let mut prepared = prepare(scene);
-    (prepared.sampling.without, prepared.sampling.anyway) = (part, true);
+    let mut prepared = prepare_anyway(scene);
+    prepared.sampling.without = part;
     let mut unadapted = prepared.clone();
     unadapted.sampling.tolerance = None;
     let full = render(renderer, &unadapted);

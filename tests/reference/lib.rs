@@ -13,6 +13,7 @@
 //! | [`composite`] | front to back, with corrected path lengths |
 //! | [`setup`] | all settings of one picture |
 //! | [`picture`] | all of it together, pixel by pixel |
+//! | [`bricks`] | u, and what light passes, in bricks of 2 × 2 rays × 4 slabs |
 //! | [`grid`] | which cells of the view-aligned grid a particle reaches |
 //! | [`floor`] | the one documented deviation: the sub-pixel floor of the support radius |
 //!
@@ -20,6 +21,7 @@
 //! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]) and [`extremes`] those at
 //! the end of what makes sense, [`device`] renders them on the machine's adapter, and [`guarantee`] tries whether adaptive sampling keeps its tolerance.
 
+pub mod bricks;
 pub mod camera;
 pub mod compare;
 pub mod composite;

@@ -17,17 +17,18 @@ use super::Adapt;
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     FRAME_WGSL,
     BUNDLE_WGSL,
     TRANSFER_WGSL,
     HULL_WGSL,
     include_str!("slabs.wgsl"),
     include_str!("intervals.wgsl"),
+    include_str!("cells.wgsl"),
     include_str!("choice.wgsl"),
 ];
 
-/// `CellBounds` of `choice.wgsl`.
+/// `CellBounds` of `cells.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(crate) struct CellBounds {

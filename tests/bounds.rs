@@ -1,0 +1,267 @@
+//! The bounds of the analysis, stage by stage, against the f64 twin: the true value lies inside. Without
+//! slack, but for the rounding that the shaders themselves leave room for.
+
+use std::ops::{ControlFlow, Range};
+
+use reference::bricks::{Bricks, Place, difference, lit};
+use reference::device::{render, shared};
+use reference::guarantee::{calm, case, prepare_anyway};
+use reference::random::Random;
+use reference::scenes::Scene;
+use renderer::{Brick, BundleDetail, CellDetail, KnownValues};
+
+/// How what the device says is read: as it is, or wrongly on purpose.
+#[derive(Clone, Copy)]
+struct Reading {
+    /// The share of a brick's interval that is cut off at each end.
+    shrunk: f64,
+    /// By how many slices bricks are taken to lie behind where they do.
+    shifted: f64,
+    /// Whether every brick with particles is taken for covered.
+    covered: bool,
+    /// The share of the charge that is believed.
+    charge: f64,
+}
+
+const AS_IT_IS: Reading = Reading { shrunk: 0.0, shifted: 0.0, covered: false, charge: 1.0 };
+
+/// What single precision may add to a difference of two responses in [0, 1].
+const ROUNDING: f64 = 1e-6;
+/// The share of the budget below which a column has ended (`OCCLUDED` of `levels.wgsl`).
+const OCCLUDED: f64 = 0.0625;
+/// Places in a brick, beside its samples, at which it is looked at.
+const PLACES: usize = 6;
+
+/// Bricks of each kind that were looked at: the test of the test.
+#[derive(Debug, Default)]
+struct Seen {
+    covered: usize,
+    uncovered: usize,
+    empty: usize,
+    ended: usize,
+    charged: usize,
+}
+
+/// The search for broken bounds.
+struct Search<'a> {
+    twin: &'a Bricks,
+    reading: Reading,
+    budget: f64,
+    random: Random,
+    seen: Seen,
+    broken: Vec<String>,
+}
+
+/// A ray of a brick or of a column in a cell: the share of the light behind that reaches the eye from
+/// there, and what it meets.
+#[derive(Clone, Copy)]
+struct Stretch {
+    front: f64,
+    response: [f64; 4],
+}
+
+impl Stretch {
+    /// The largest difference from another response that is seen, over black and over white light.
+    fn from(&self, other: [f64; 4]) -> f64 {
+        let apart = [0.0, 1.0].map(|light| difference(lit(self.response, light), lit(other, light)));
+        self.front * apart[0].max(apart[1])
+    }
+}
+
+impl Search<'_> {
+    fn bundle(&mut self, detail: &BundleDetail) {
+        for column in 0..16 {
+            let mut fronts = [1.0; 4];
+            for cell in detail.cells.iter().filter(|cell| cell.cell.layer < detail.end_layer) {
+                let place = Place { bundle: detail.bundle, layer: cell.cell.layer, column, brick: 0 };
+                self.column(place, cell, &mut fronts);
+            }
+        }
+    }
+
+    /// The bricks of a column in a cell; `fronts` is brought behind them.
+    fn column(&mut self, place: Place, cell: &CellDetail, fronts: &mut [f64; 4]) {
+        let rays = self.twin.rays(&place);
+        let mut whole = fronts.map(|front| Stretch { front, response: [0.0; 4] });
+        for brick in 0..4 {
+            let place = Place { brick, ..place };
+            let mut stretches = Vec::new();
+            for &ray in &rays {
+                let samples = self.twin.samples(&place, ray, self.reading.shifted);
+                samples.iter().for_each(|u| self.within_cell(&place, cell, *u));
+                let response = self.twin.response(&place, ray, &samples);
+                stretches.push(Stretch { front: fronts[ray], response });
+                whole[ray].response = behind(whole[ray].response, response);
+                fronts[ray] *= 1.0 - response[3];
+            }
+            if let Some(bricks) = cell.bricks.as_ref().filter(|_| !rays.is_empty()) {
+                let brick = bricks[place.column as usize][brick as usize];
+                self.between_samples(&place, &brick);
+                self.charge(&place, &brick, &stretches);
+            }
+        }
+        self.shown(&place, cell, &rays.iter().map(|ray| whole[*ray]).collect::<Vec<_>>());
+    }
+
+    /// u at a sample lies within the bounds of its cell and of its brick.
+    fn within_cell(&mut self, place: &Place, cell: &CellDetail, u: Option<f64>) {
+        self.within(place, "the cell", cell.values, u, AS_IT_IS);
+        if let Some(bricks) = &cell.bricks {
+            let values = bricks[place.column as usize][place.brick as usize].values;
+            self.within(place, "the brick", values, u, self.reading);
+        }
+    }
+
+    /// So does u anywhere else in the brick.
+    fn between_samples(&mut self, place: &Place, brick: &Brick) {
+        match brick.values {
+            KnownValues::Unknown => panic!("{place:?} has a brick that is not known"),
+            KnownValues::Empty => self.seen.empty += 1,
+            KnownValues::Between { covered: true, .. } => self.seen.covered += 1,
+            KnownValues::Between { covered: false, .. } => self.seen.uncovered += 1,
+        }
+        let camera = &self.twin.setup.camera;
+        let (corner, size) = (place.corner(), [camera.width, camera.height]);
+        for _ in 0..PLACES {
+            let pixel = [0, 1].map(|axis| {
+                let last = f64::from(size[axis] - 1).min(f64::from(corner[axis] + 1)) + 0.5;
+                self.random.between(f64::from(corner[axis]) + 0.5, last)
+            });
+            let deep = self.random.between(0.5, 3.5) + self.reading.shifted;
+            let u = self.twin.value(pixel, f64::from(place.first_slab()) + deep);
+            self.within(place, "the brick between its samples", brick.values, u, self.reading);
+        }
+    }
+
+    fn within(&mut self, place: &Place, what: &str, values: KnownValues, u: Option<f64>, reading: Reading) {
+        let sound = match (values, u) {
+            (KnownValues::Unknown, _) | (KnownValues::Empty, None) => true,
+            (KnownValues::Empty, Some(_)) => false,
+            (KnownValues::Between { covered, .. }, None) => !covered && !reading.covered,
+            (KnownValues::Between { low, high, .. }, Some(u)) => {
+                let (low, high) = (f64::from(low), f64::from(high));
+                let cut = reading.shrunk * (high - low);
+                (low + cut..=high - cut).contains(&u)
+            }
+        };
+        if !sound {
+            self.broken.push(format!("{place:?}: {what}, {values:?}, does not hold {u:?}"));
+        }
+    }
+
+    /// No two rays of a brick differ by more than twice its charge; and where it has none, no light comes
+    /// from there.
+    fn charge(&mut self, place: &Place, brick: &Brick, rays: &[Stretch]) {
+        let front = rays.iter().map(|ray| ray.front).fold(0.0, f64::max);
+        let Some(charge) = brick.charge.map(f64::from) else {
+            self.seen.ended += 1;
+            if front > OCCLUDED * self.budget * (1.0 + ROUNDING) {
+                self.broken.push(format!("{place:?}: has ended, but for {front} of the light"));
+            }
+            return;
+        };
+        self.seen.charged += usize::from(charge > 0.0 && front > 0.01);
+        let responses = rays.iter().map(|ray| ray.response);
+        let apart = responses.map(|response| Stretch { front, response });
+        for (a, b) in apart.clone().flat_map(|a| rays.iter().map(move |b| (a, b))) {
+            let apart = a.from(b.response);
+            if apart > 2.0 * (self.reading.charge * charge + ROUNDING) {
+                self.broken.push(format!("{place:?}: rays are {apart} apart, charged {charge}"));
+            }
+        }
+    }
+
+    /// What is shown in place of a whole column is no farther from any of its rays than its bricks are
+    /// charged. Where no bricks were looked at, there is nothing to be seen.
+    fn shown(&mut self, place: &Place, cell: &CellDetail, rays: &[Stretch]) {
+        let (Some(bricks), Some(shown)) = (&cell.bricks, &cell.shown) else {
+            if rays.iter().any(|ray| ray.response != [0.0; 4]) {
+                self.broken.push(format!("{place:?}: the cell is not transparent"));
+            }
+            return;
+        };
+        let charges = bricks[place.column as usize].map(|brick| brick.charge.map(f64::from));
+        let Some(charged) = charges.into_iter().sum::<Option<f64>>() else { return };
+        let middle = shown[place.column as usize].map(f64::from);
+        for off in rays.iter().map(|ray| ray.from(middle)) {
+            if off > self.reading.charge * charged + ROUNDING {
+                self.broken.push(format!("{place:?}: shown {off} from a ray, charged {charged}"));
+            }
+        }
+    }
+}
+
+/// Premultiplied colour and opacity of one stretch with another behind it.
+fn behind(front: [f64; 4], back: [f64; 4]) -> [f64; 4] {
+    std::array::from_fn(|channel| front[channel] + (1.0 - front[3]) * back[channel])
+}
+
+/// Scenes of all shapes, kernels and transfer functions, with a tolerance that lets columns end.
+fn scenes(seeds: Range<u64>) -> impl Iterator<Item = Scene> {
+    let cases = seeds.map(case).map(|mut scene| {
+        scene.view.sampling.tolerance = Some(0.01);
+        scene
+    });
+    cases.chain([calm(71, 65, 43), calm(72, 40, 33)])
+}
+
+/// Looks for broken bounds in some bundles of each scene, until `enough` are found.
+fn search(seeds: Range<u64>, reading: Reading, bundles: usize, enough: usize) -> (Seen, Vec<String>) {
+    let (mut seen, mut broken) = (Seen::default(), Vec::new());
+    for (seed, scene) in (0..).zip(scenes(seeds)) {
+        let (twin, prepared) = (Bricks::new(&scene), prepare_anyway(&scene));
+        let mut renderer = shared();
+        render(&mut renderer, &prepared);
+        let mut random = Random::new(seed);
+        let counts = [scene.view.image.width, scene.view.image.height].map(|side| side.div_ceil(8) as usize);
+        for number in 0..bundles {
+            // The one in the middle, and some others.
+            let bundle = counts.map(|count| if number == 0 { count / 2 } else { random.below(count) } as u32);
+            let detail = renderer.inspect_bundle(&prepared, bundle, &mut |_| ControlFlow::Continue(()));
+            let detail = detail.unwrap_or_else(|error| panic!("{error}"));
+            let budget = f64::from(detail.budget.expect("it is sampled adaptively"));
+            let random = Random::new(seed ^ 77);
+            let mut search = Search { twin: &twin, reading, budget, random, seen, broken };
+            search.bundle(&detail);
+            (seen, broken) = (search.seen, search.broken);
+            let named = broken.iter_mut().filter(|line| line.starts_with("Place"));
+            named.for_each(|line| *line = format!("{}: {line}", scene.name));
+            if broken.len() >= enough {
+                return (seen, broken);
+            }
+        }
+    }
+    (seen, broken)
+}
+
+#[test]
+fn what_is_true_lies_within_all_bounds() {
+    let (seen, broken) = search(200..236, AS_IT_IS, 3, 20);
+    println!("{seen:?}");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    let Seen { covered, uncovered, empty, ended, charged } = seen;
+    assert!([covered, uncovered, empty, ended, charged].iter().all(|count| *count > 1000), "{seen:?}");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn what_is_true_lies_within_all_bounds_of_many_scenes() {
+    let (seen, broken) = search(1000..1600, AS_IT_IS, 4, 20);
+    println!("{seen:?}");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn wrong_bounds_are_noticed() {
+    for (what, reading) in [
+        ("narrower by a hundredth", Reading { shrunk: 0.01, ..AS_IT_IS }),
+        ("a slice behind", Reading { shifted: 1.0, ..AS_IT_IS }),
+        ("a slice in front", Reading { shifted: -1.0, ..AS_IT_IS }),
+        ("covered without proof", Reading { covered: true, ..AS_IT_IS }),
+        ("half of the charge", Reading { charge: 0.5, ..AS_IT_IS }),
+    ] {
+        let (_, broken) = search(200..236, reading, 2, 1);
+        assert!(!broken.is_empty(), "{what}: nobody notices");
+        println!("{what}: {}", broken[0]);
+    }
+}
