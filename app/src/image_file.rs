@@ -137,7 +137,7 @@ pub fn to_srgb8([r, g, b, a]: [f32; 4], background: Option<[f32; 3]>) -> [u8; 4]
 }
 
 /// The transfer curve of IEC 61966-2-1.
-fn to_srgb(linear: f32) -> f32 {
+pub fn to_srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 

@@ -11,7 +11,8 @@ fn an_overlay_is_laid_over_the_picture_and_a_pixel_looked_into() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = Window::open(folder.path(), &["demo", "--size", "120x90"]);
     window.wait_for_full_picture();
-    for section in ["Transfer function", "Quantity", "Sampling"] {
+    // From below: what is folded away moves all that is under it.
+    for section in ["Sampling", "Transfer function", "Quantity"] {
         window.click(section, [0.5, 0.5]);
     }
     window.rest();
@@ -21,7 +22,7 @@ fn an_overlay_is_laid_over_the_picture_and_a_pixel_looked_into() {
 
     window.key("c");
     let found = window.wait_for("cells");
-    window.rest();
+    window.wait_for_area("depth");
     assert!(found.starts_with("CellClasses") && !found.contains("mixed: 0,"), "{found}");
     let classes = window.desktop().resting_pixels(middle);
     assert_ne!(plain, classes);
@@ -49,7 +50,7 @@ fn an_overlay_is_laid_over_the_picture_and_a_pixel_looked_into() {
     let found = window.wait_for("inspected");
     let cells: usize = found.rsplit('=').next().unwrap().parse().unwrap();
     assert!(cells > 3, "{found}");
-    window.wait_for("area inspector");
+    window.wait_for_area("inspector");
     window.rest();
     // Beside the inspector, there is a strip left of the picture.
     window.drag("picture", [0.03, 0.5], [0.03, 0.55]);

@@ -156,6 +156,15 @@ impl Window {
         numbers.try_into().unwrap()
     }
 
+    /// Waits until an area is known that was not there from the beginning.
+    pub fn wait_for_area(&mut self, name: &str) {
+        let beginning = format!("area {name} ");
+        let known = |line: &String| line.strip_prefix("event: ").is_some_and(|e| e.starts_with(&beginning));
+        if !self.said.iter().any(known) {
+            self.wait_for(&beginning);
+        }
+    }
+
     /// A place inside an area, in shares of its sides.
     pub fn place(&self, name: &str, across: f64, down: f64) -> [String; 2] {
         let [x, y, width, height] = self.area(name).map(f64::from);

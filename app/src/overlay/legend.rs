@@ -4,13 +4,13 @@ use renderer::CellClass;
 
 use super::lettering::{Lettering, Line};
 use super::looks::look;
-use super::picture::{cover, linear};
+use super::picture::cover;
 use crate::image_file::Pixels;
 
 /// Classes in view, each with its colour, its name, and its share of what is covered.
 #[derive(Default)]
 pub struct Legend {
-    entries: Vec<([f32; 3], Line)>,
+    entries: Vec<([u8; 3], Line)>,
     /// Size of the letters, in pixels; all else is in proportion.
     size: usize,
 }
@@ -18,8 +18,8 @@ pub struct Legend {
 /// Letters are a fortieth of the picture's height, within these.
 const SIZES: [usize; 2] = [11, 26];
 /// Ground behind the letters: its colour and opacity.
-const GROUND: ([f32; 3], f32) = ([0.005; 3], 0.8);
-const INK: [f32; 3] = [0.85; 3];
+const GROUND: ([u8; 3], f32) = ([0x11, 0x13, 0x16], 0.85);
+const INK: [u8; 3] = [0xee; 3];
 
 impl Legend {
     /// `counts`: bundles by class. A picture without room for it has none.
@@ -34,7 +34,7 @@ impl Legend {
         let entries = in_view.map(|(class, count)| {
             let look = look(class);
             let text = format!("{}  {}", look.name, percent(*count as f64 / all));
-            (linear(look.rgb), lettering.line(&text, size as f32))
+            (look.rgb, lettering.line(&text, size as f32))
         });
         let legend = Legend { entries: entries.collect(), size };
         let [across, down] = legend.extent();
@@ -73,7 +73,7 @@ impl Legend {
 }
 
 /// Covers x, y, width, height of a picture.
-fn fill(picture: &mut Pixels, [x, y, width, height]: [usize; 4], (colour, opacity): ([f32; 3], f32)) {
+fn fill(picture: &mut Pixels, [x, y, width, height]: [usize; 4], (colour, opacity): ([u8; 3], f32)) {
     for row in picture.data.chunks_mut(picture.width as usize).skip(y).take(height) {
         row[x..x + width].iter_mut().for_each(|pixel| cover(pixel, colour, opacity));
     }

@@ -71,6 +71,10 @@ mod tests {
         ),
     ];
 
+    fn linear(rgb: [u8; 3]) -> [f32; 3] {
+        rgb.map(|channel| crate::image_file::to_linear(f32::from(channel) / 255.0))
+    }
+
     fn apply(matrix: [[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
         matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
     }
@@ -98,7 +102,7 @@ mod tests {
     #[test]
     fn everyone_can_tell_the_colours_apart() {
         for (eyes, matrix) in EYES {
-            let seen = LOOKS.map(|look| oklab(apply(matrix, crate::overlay::picture::linear(look.rgb))));
+            let seen = LOOKS.map(|look| oklab(apply(matrix, linear(look.rgb))));
             for (a, b) in (0..LOOKS.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
                 let distance = (0..3).map(|i| (seen[a][i] - seen[b][i]).powi(2)).sum::<f32>().sqrt();
                 // A fiftieth is what an eye just notices.
