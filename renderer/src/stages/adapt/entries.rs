@@ -44,13 +44,13 @@ pub(crate) struct Offers {
 
 impl Offers {
     /// What it costs in all to show a brick unsampled; `None` where no light comes from it.
-    pub(crate) fn to_show(&self, brick: usize) -> Option<f32> {
+    pub(crate) fn to_show(self, brick: usize) -> Option<f32> {
         let cost = self.first[brick] + self.second[brick].max(0.0);
         (self.first[brick] >= 0.0).then_some(cost)
     }
 
     /// What it costs to sample a brick at level 2, where that is a step of its own.
-    pub(crate) fn to_coarsen(&self, brick: usize) -> Option<f32> {
+    pub(crate) fn to_coarsen(self, brick: usize) -> Option<f32> {
         (self.first[brick] >= 0.0 && self.second[brick] >= 0.0).then_some(self.first[brick])
     }
 }
