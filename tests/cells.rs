@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use reference::device::{open, render, shared};
-use reference::guarantee::{ROUNDING, calm, case, prepare_anyway, try_out};
+use reference::device::{open, prepare, render, shared};
+use reference::guarantee::{ROUNDING, calm, case, prepare_anyway};
 use reference::scenes::{self, Scene, grey};
 use renderer::{
     Bound, BundleDetail, CellClass, CellMap, GpuOptions, KnownValues, Picture, RenderError, Renderer,
@@ -31,12 +31,31 @@ fn some_scenes() -> Vec<Scene> {
     let mut opaque = calm(28, 57, 43);
     opaque.view.transfer.points = vec![grey(0.0, 0.3, 0.9), grey(1.0, 0.8, 0.9)];
     opaque.view.transfer.reference_length = opaque.view.transfer.reference_length.map(|l| 0.05 * l);
-    (0..12).map(case).chain([calm(20, 97, 72), calm(21, 33, 21), full, opaque]).collect()
+    let scenes = [calm(20, 97, 72), calm(21, 33, 21), full, opaque, coarse(), by_intervals(1.0)];
+    (0..12).map(case).chain(scenes).collect()
+}
+
+/// Nothing may be shown unsampled, but bricks may be sampled once for their four slices.
+fn coarse() -> Scene {
+    let mut scene = calm(29, 57, 43);
+    scene.view.sampling.super_pixels = false;
+    scene.name = "without super-pixels".to_owned();
+    scene
+}
+
+/// By the paper's bound.
+fn by_intervals(relaxation: f64) -> Scene {
+    let mut scene = calm(30, 57, 43);
+    (scene.view.sampling.bound, scene.view.sampling.relaxation) = (Bound::Paper, relaxation);
+    scene.view.sampling.tolerance = Some(0.05);
+    scene.view.sampling.super_pixels = false;
+    scene.name = format!("by intervals, relaxed {relaxation}");
+    scene
 }
 
 #[test]
 fn classes_are_counted_as_in_the_statistics() {
-    let mut seen = [0; CellClass::ALL.len()];
+    let mut seen = [0_u64; CellClass::ALL.len()];
     for scene in some_scenes() {
         let (picture, map) = map_of(&mut shared(), &prepare_anyway(&scene));
         assert_eq!(map.classes(), picture.stats.cells_by_class, "{}", scene.name);
@@ -49,6 +68,7 @@ fn classes_are_counted_as_in_the_statistics() {
         assert!(seen[class.index()] > 0, "{class:?} is never met: {seen:?}");
     }
     assert!(seen[CellClass::Occluded.index()] > 0, "{seen:?}");
+    assert!(seen[CellClass::ZAdaptive(2).index()] > 0 && seen[2..6].iter().sum::<u64>() > 100, "{seen:?}");
 }
 
 #[test]
@@ -82,11 +102,12 @@ fn cells_hold_the_particles_of_the_grid() {
 /// No pixel is farther from full sampling than what is charged to its own column.
 fn assert_charged_for(scene: &Scene) {
     let mut renderer = shared();
-    let trial = try_out(&mut renderer, scene);
-    // Rendered once more, as `try_out` has prepared a scene of its own.
-    let (picture, map) = map_of(&mut renderer, &prepare_anyway(scene));
-    assert_eq!(picture.pixels, trial.adaptive.pixels, "{}", scene.name);
-    for (index, (full, adaptive)) in (0..).zip(trial.full.pixels.iter().zip(&trial.adaptive.pixels)) {
+    let prepared = prepare_anyway(scene);
+    let mut unadapted = prepared.clone();
+    unadapted.sampling.tolerance = None;
+    let full = render(&mut renderer, &unadapted);
+    let (picture, map) = map_of(&mut renderer, &prepared);
+    for (index, (full, adaptive)) in (0..).zip(full.pixels.iter().zip(&picture.pixels)) {
         let pixel = [index % picture.width, index / picture.width];
         let error = full.iter().zip(adaptive).map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
         let charged = f64::from(map.charged(pixel));
@@ -100,7 +121,8 @@ fn assert_charged_for(scene: &Scene) {
 
 #[test]
 fn no_pixel_is_farther_off_than_its_column_is_charged() {
-    (0..40).map(case).chain([calm(20, 97, 72)]).for_each(|scene| assert_charged_for(&scene));
+    let scenes = [calm(20, 97, 72), coarse(), by_intervals(0.0)];
+    (0..40).map(case).chain(scenes).for_each(|scene| assert_charged_for(&scene));
 }
 
 #[test]
@@ -140,12 +162,12 @@ fn a_bundle_in_several_tiles_behind_each_other_is_put_together() {
 #[test]
 fn looking_at_cells_costs_the_next_picture_nothing() {
     let mut renderer = shared();
-    let prepared = prepare_anyway(&calm(25, 57, 43));
+    let prepared = prepare(&calm(25, 57, 43));
     let first = render(&mut renderer, &prepared);
     let (second, map) = map_of(&mut renderer, &prepared);
     detail(&mut renderer, &prepared, [2, 1]);
     let third = render(&mut renderer, &prepared);
-    assert_eq!((&first.pixels, &first.pixels), (&second.pixels, &third.pixels));
+    assert!(first.pixels == second.pixels && first.pixels == third.pixels, "it is the same picture");
     assert_eq!([second.stats.milliseconds.total, third.stats.milliseconds.total], [0.0, 0.0]);
     // And a picture that shares its grid still does.
     let mut other = prepared.clone();
@@ -154,14 +176,14 @@ fn looking_at_cells_costs_the_next_picture_nothing() {
     assert_eq!((changed.stats.milliseconds.grid, changed.stats.evaluations.bounds), (0.0, 0));
     assert_ne!(map, changed_map);
     // A grid that was looked at meanwhile is another one.
-    renderer.inspect_grid(&prepare_anyway(&calm(26, 57, 43))).unwrap();
+    renderer.inspect_grid(&prepare(&calm(26, 57, 43))).unwrap();
     assert!(map_of(&mut renderer, &other).1 == changed_map);
 }
 
 #[test]
 fn a_cancelled_map_leaves_no_trace() {
     let mut renderer = shared();
-    let prepared = prepare_anyway(&calm(27, 57, 43));
+    let prepared = prepare(&calm(27, 57, 43));
     let cancelled = renderer.render_with_cells(&prepared, &mut |_| ControlFlow::Break(()));
     assert!(matches!(cancelled, Err(RenderError::Cancelled)), "{:?}", cancelled.err());
     let (picture, map) = map_of(&mut renderer, &prepared);
@@ -188,7 +210,7 @@ fn a_bundle_in_detail_is_what_the_map_says_of_it() {
             let cells: Vec<_> = detail.cells.iter().map(|cell| cell.cell).collect();
             assert_eq!((&cells, detail.end_layer), (&bundle.cells, bundle.end_layer), "{}", scene.name);
             assert_eq!((detail.charged, detail.layers), (bundle.charged, map.layers), "{}", scene.name);
-            if let Some(budget) = detail.budget {
+            if let Some(budget) = detail.budget.filter(|_| detail.bound == Bound::Difference) {
                 assert_charges_add_up(&scene.name, &detail, budget);
             }
         }
@@ -219,6 +241,30 @@ fn bricks_are_bounded_inside_their_cell() {
 }
 
 #[test]
+fn the_papers_bound_is_known_slab_by_slab() {
+    let prepared = prepare(&by_intervals(1.0));
+    let by_slabs = detail(&mut shared(), &prepared, [2, 2]);
+    assert!(by_slabs.cells.iter().all(|cell| cell.bricks.is_none()));
+    let mut ours = prepared.clone();
+    ours.sampling.bound = Bound::Difference;
+    let by_bricks = detail(&mut shared(), &ours, [2, 2]);
+    let mut between = 0;
+    for (slabs, bricks) in by_slabs.cells.iter().zip(&by_bricks.cells) {
+        assert_eq!((slabs.cell.layer, slabs.depths), (bricks.cell.layer, bricks.depths));
+        assert!(slabs.slabs.is_some() && bricks.slabs.is_none() && bricks.bricks.is_some());
+        let [KnownValues::Between { low: a, high: b, .. }, KnownValues::Between { low: c, high: d, .. }] =
+            [slabs.values, bricks.values]
+        else {
+            continue;
+        };
+        // Both have the extremes of the same particles.
+        assert!((a - c).abs() < 1e-4 && (b - d).abs() < 1e-4, "[{a}, {b}] and [{c}, {d}]");
+        between += 1;
+    }
+    assert!(between > 5, "{between}");
+}
+
+#[test]
 fn a_full_picture_charges_nothing() {
     let mut scene = calm(20, 57, 43);
     scene.view.sampling.tolerance = None;
@@ -233,14 +279,4 @@ fn a_full_picture_charges_nothing() {
         }),
         [4; 16]
     );
-}
-
-#[test]
-fn the_bound_of_the_paper_has_no_bricks() {
-    let mut scene = calm(20, 57, 43);
-    scene.view.sampling.bound = Bound::Paper;
-    let prepared = prepare_anyway(&scene);
-    render(&mut shared(), &prepared);
-    let detail = detail(&mut shared(), &prepared, [3, 2]);
-    assert!(!detail.cells.is_empty() && detail.cells.iter().all(|cell| cell.bricks.is_none()));
 }

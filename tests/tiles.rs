@@ -2,9 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use reference::Particle;
 use reference::compare::compare;
 use reference::device::{mismatch, open, picture, prepare, render};
 use reference::picture::Image;
+use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey};
 use renderer::{GpuOptions, Kernel, RenderError, Renderer, TooLarge, TransferFunction};
 
@@ -78,6 +80,20 @@ fn large_and_small_scenes_in_turn() {
         let mismatch = reference::device::mismatch(&other, &image);
         assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
     }
+}
+
+#[test]
+fn crowded_cells_take_several_tiles() {
+    let mut random = Random::new(134);
+    let mut crowded = scenes::plain(134, 24, 17);
+    crowded.particles = (0..20_000)
+        .map(|_| Particle { position: random.in_cube(), quantity: random.unit(), ..crowded.particles[0] })
+        .collect();
+    let whole = picture(&crowded);
+    // Room for the particles of the largest cell, but not for all.
+    let tiled = Image::from(&render(&mut little(4 << 20), &prepare(&crowded)));
+    let comparison = compare(&whole, &tiled);
+    assert!(comparison.max <= 1e-4, "{comparison}");
 }
 
 /// A cell with more particles than a tile may hold.

@@ -1,7 +1,8 @@
 //! What became of each cell of a picture: the data of the overlay and of the inspection of a bundle.
 
-use crate::camera::BUNDLE_SIDE;
+use crate::camera::{BUNDLE_SIDE, CELL_SLICES};
 use crate::picture::lane_of;
+use crate::sampling::Bound;
 use crate::stats::CellClasses;
 
 /// Columns of 2 × 2 rays of a bundle.
@@ -193,10 +194,12 @@ pub struct CellDetail {
     pub depths: [f64; 2],
     /// Of the particles of the cell: bounds of all its samples.
     pub values: KnownValues,
-    /// Where they are known.
+    /// Where they are known: by our bound.
     pub bricks: Option<Box<CellBricks>>,
     /// With the bricks: colour and opacity that stand for each column where none of it is sampled.
     pub shown: Option<Box<[[f32; 4]; COLUMNS]>>,
+    /// By the paper's bound.
+    pub slabs: Option<Box<[KnownValues; CELL_SLICES as usize]>>,
 }
 
 impl CellDetail {
@@ -224,7 +227,9 @@ pub struct BundleDetail {
     /// Layers of cells along each ray.
     pub layers: u32,
     pub end_layer: u32,
-    /// What may be charged to a ray; `None` at full sampling.
+    /// Whose bound it is. By the paper's, a ray is charged as a whole, and not cell by cell.
+    pub bound: Bound,
+    /// What may be charged to a ray; `None` where it is sampled in full.
     pub budget: Option<f32>,
     /// What is charged to the rays of each column: that of its cells, and of what is left out behind.
     pub charged: [f32; COLUMNS],

@@ -13,7 +13,8 @@
 //!
 //! 1. **project** brings the particles into view space.
 //! 2. **grid** sorts them into cells of 8 × 8 pixels × 16 slices, aligned with the rays: it counts the
-//!    particles of every cell, **scan** turns counts into places, and the particles go to their places.
+//!    particles of every cell, **scan** turns counts into places, and the particles go to their places;
+//!    **order** gives those of each cell an order that does not change from run to run.
 //! 3. **adapt** bounds the quantity in the bricks of each cell, and chooses those that may be shown by
 //!    one colour: as many as the tolerance of the view pays for.
 //! 4. **cast** samples what is left. The particles of a cell are read once for all its rays; each is

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::camera::Slices;
+use crate::camera::{CELL_SLICES, Slices};
 use crate::cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMNS, CellBricks, CellClass, CellDetail, CellMap,
     KnownValues, MapCell,
@@ -16,9 +16,11 @@ use crate::plan::{self, Tile};
 use crate::renderer::{Progress, Renderer};
 use crate::sampling::Bound;
 use crate::scene::Scene;
+use crate::stages::adapt::CellBounds;
 use crate::stages::adapt::entries::{
     BundleEntry, COVERED, CellEntry, ColumnValues, FIRST_SLOT, Offers, WHOLE_KNOWN,
 };
+use crate::stages::cast::CROWD;
 use crate::stats::Milliseconds;
 use crate::tiles::Job;
 
@@ -166,27 +168,62 @@ impl Renderer {
         let entries: Vec<CellEntry> = read.filled_entries().collect();
         read.append_to(tile, &mut summary);
         (detail.end_layer, detail.charged) = (summary.end_layer, summary.charged);
-
-        if tile.first_layer == 0 && !self.is_adapted(job, tile) {
-            detail.budget = None;
+        if self.is_adapted(job, tile) {
+            detail.budget = job.scene.sampling.budget();
         }
-        // The paper's bound has no bricks.
-        let has_bricks = |slot: u32| slot >= FIRST_SLOT && job.scene.sampling.bound == Bound::Difference;
-        let slots: Vec<u32> = entries.iter().map(|entry| entry.slot).filter(|s| has_bricks(*s)).collect();
-        let mut bricks = self.read_bricks(&slots)?.into_iter().peekable();
+
+        let mut details = Vec::new();
         for (number, cell) in summary.cells.into_iter().enumerate() {
-            let entry = entries.get(number);
-            let depth = |layer: u32| job.slices.depth(f64::from(16 * layer));
-            let has_bricks = entry.is_some_and(|entry| has_bricks(entry.slot));
-            let (bricks, shown) = bricks.next_if(|_| has_bricks).unzip();
-            let known = entry.filter(|entry| entry.slot >= WHOLE_KNOWN);
-            detail.cells.push(CellDetail {
+            let depth = |layer: u32| job.slices.depth(f64::from(CELL_SLICES * layer));
+            let entry = entries.get(number).filter(|entry| entry.slot >= WHOLE_KNOWN);
+            details.push(CellDetail {
                 depths: [depth(cell.layer), depth(cell.layer + 1)],
                 cell,
-                values: known.map_or(KnownValues::Unknown, |entry| KnownValues::of(entry.values)),
-                bricks,
-                shown,
+                values: entry.map_or(KnownValues::Unknown, |entry| KnownValues::of(entry.values)),
+                bricks: None,
+                shown: None,
+                slabs: None,
             });
+        }
+        match detail.bound {
+            Bound::Difference => self.add_bricks(&entries, &mut details)?,
+            Bound::Paper => self.add_slabs(&entries, &mut details)?,
+        }
+        detail.cells.append(&mut details);
+        Ok(())
+    }
+
+    /// Adds the bricks where they are known.
+    fn add_bricks(&self, entries: &[CellEntry], cells: &mut [CellDetail]) -> Result<(), RenderError> {
+        let known = || entries.iter().map(|entry| entry.slot).filter(|slot| *slot >= FIRST_SLOT);
+        let mut bricks = self.read_bricks(&known().collect::<Vec<u32>>())?.into_iter();
+        for (cell, entry) in cells.iter_mut().zip(entries) {
+            (cell.bricks, cell.shown) = (entry.slot >= FIRST_SLOT).then(|| bricks.next()).flatten().unzip();
+        }
+        Ok(())
+    }
+
+    /// Adds the slabs where they are known.
+    fn add_slabs(&self, entries: &[CellEntry], cells: &mut [CellDetail]) -> Result<(), RenderError> {
+        // A crowded cell has a place for its slabs, at which they are not looked at.
+        let known =
+            |cell: &CellDetail, entry: &CellEntry| entry.slot >= FIRST_SLOT && cell.cell.particles <= CROWD;
+        let pairs = || cells.iter().zip(entries).filter(|(cell, entry)| known(cell, entry));
+        let places: Vec<u64> = pairs().map(|(_, entry)| u64::from(entry.slot - FIRST_SLOT)).collect();
+        let places: Vec<Range<u64>> = places.into_iter().map(|place| place..place + 1).collect();
+        let mut bounds = Vec::new();
+        if !places.is_empty() {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            let copy = self.adapt.intervals().read_ranges(&self.gpu, &mut encoder, &places);
+            self.gpu.queue.submit([encoder.finish()]);
+            bounds = copy.take(&self.gpu)?;
+        }
+        let mut bounds = bounds.into_iter();
+        for (cell, entry) in cells.iter_mut().zip(entries) {
+            let of_cell: Option<CellBounds> = known(cell, entry).then(|| bounds.next()).flatten();
+            let slabs = of_cell.map(|bounds| bounds.values.map(KnownValues::of));
+            cell.values = slabs.map_or(KnownValues::Unknown, |slabs| KnownValues::of_all(&slabs));
+            cell.slabs = slabs.map(Box::new);
         }
         Ok(())
     }
@@ -231,8 +268,8 @@ type ReadBricks = (Box<CellBricks>, Box<[[f32; 4]; COLUMNS]>);
 /// A bundle of which nothing is known yet.
 fn blank(job: &Job, bundle: [u32; 2]) -> BundleDetail {
     let layers = job.slices.layers() as u32;
-    let budget = job.scene.sampling.budget();
-    BundleDetail { bundle, layers, end_layer: 0, budget, charged: [0.0; COLUMNS], cells: Vec::new() }
+    let (bound, charged) = (job.scene.sampling.bound, [0.0; COLUMNS]);
+    BundleDetail { bundle, layers, end_layer: 0, bound, budget: None, charged, cells: Vec::new() }
 }
 
 /// Column and row in the picture of a bundle of `tile`.
@@ -294,5 +331,23 @@ impl KnownValues {
         // The sum with COVERED may have lost half a unit of its last place.
         let high = if covered { (high - COVERED + 3e-7).min(1.0) } else { high };
         KnownValues::Between { low: low.min(high), high, covered }
+    }
+
+    /// What is known of parts together.
+    fn of_all(parts: &[KnownValues]) -> KnownValues {
+        let join = |all, part: &KnownValues| match (all, *part) {
+            (KnownValues::Unknown, _) | (_, KnownValues::Unknown) => KnownValues::Unknown,
+            // A part without a particle leaves the bounds as they are.
+            (KnownValues::Between { low, high, .. }, KnownValues::Empty)
+            | (KnownValues::Empty, KnownValues::Between { low, high, .. }) => {
+                KnownValues::Between { low, high, covered: false }
+            }
+            (
+                KnownValues::Between { low: a, high: b, covered: c },
+                KnownValues::Between { low: d, high: e, covered: f },
+            ) => KnownValues::Between { low: a.min(d), high: b.max(e), covered: c && f },
+            (KnownValues::Empty, KnownValues::Empty) => KnownValues::Empty,
+        };
+        parts.iter().skip(1).fold(parts[0], join)
     }
 }

@@ -14,7 +14,7 @@ pub struct Look {
 /// In the order of [`CellClass::ALL`]. The colours are told apart by people who lack one kind of cone,
 /// too: see the test below.
 const LOOKS: [Look; CellClass::ALL.len()] = [
-    Look { name: "Full", rgb: [0xe0, 0x60, 0x1f], meaning: "Sampled as a whole" },
+    Look { name: "Full", rgb: [0xe0, 0x60, 0x1f], meaning: "Sampled wherever it makes a difference" },
     Look {
         name: "Mixed",
         rgb: [0xf6, 0xbf, 0x4a],

@@ -101,3 +101,73 @@ impl Layers {
         self.tolerance
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use renderer::{BrickMask, BundleCells, MapCell, SamplingView, Stats};
+
+    use super::*;
+    use crate::viewer::prepare::Facts;
+
+    /// A picture of one bundle, grey, in which there is one cell.
+    fn shown(cells: bool) -> Shown {
+        let (sampled, coarse) = (BrickMask::default(), BrickMask::default());
+        let cell = MapCell { layer: 0, particles: 1, class: CellClass::Full, sampled, coarse };
+        let bundles = vec![BundleCells { end_layer: 1, charged: [0.004; 16], cells: vec![cell] }];
+        let map = CellMap { size: [8, 8], count: [1, 1], layers: 1, bundles };
+        Shown {
+            index: 0,
+            width: 8,
+            height: 8,
+            pixels: vec![[50, 50, 50, 255]; 64],
+            full: [8, 8],
+            divisor: 1,
+            sampling: SamplingView { tolerance: Some(0.008), ..SamplingView::default() },
+            stats: Stats::default(),
+            facts: Facts::default(),
+            cells: cells.then(|| Arc::new(map)),
+            probed: None,
+        }
+    }
+
+    fn overlay(kind: Kind) -> Overlay {
+        let mut overlay = Overlay::default();
+        overlay.kind = kind;
+        *overlay.opacity_mut() = 1.0;
+        overlay
+    }
+
+    #[test]
+    fn each_kind_has_its_colours() {
+        let mut layers = Layers::default();
+        layers.set(shown(true));
+        let first = |drawn: Option<Drawn>| drawn.map(|drawn| drawn.pixels[0]);
+        assert_eq!(first(layers.refresh(&overlay(Kind::Off))), Some([50, 50, 50, 255]));
+        assert_eq!(first(layers.refresh(&overlay(Kind::Off))), None, "nothing has changed");
+        let [r, g, b] = crate::overlay::look(CellClass::Full).rgb;
+        assert_eq!(first(layers.refresh(&overlay(Kind::Classes))), Some([r, g, b, 255]));
+        assert_eq!(layers.covered(&overlay(Kind::Classes)).unwrap()[0], 1);
+        let [r, g, b] = error_map::ramp(0.5);
+        assert_eq!(first(layers.refresh(&overlay(Kind::Predicted))), Some([r, g, b, 255]));
+        assert!(layers.covered(&overlay(Kind::Predicted)).is_none());
+    }
+
+    #[test]
+    fn nothing_lies_over_a_picture_that_it_is_not_about() {
+        let mut layers = Layers::default();
+        layers.set(shown(true));
+        layers.refresh(&overlay(Kind::Classes));
+        // The next picture comes without cells: so it is shown without them.
+        layers.set(shown(false));
+        let drawn = layers.refresh(&overlay(Kind::Classes)).expect("another picture");
+        assert_eq!(drawn.pixels[0], [50, 50, 50, 255]);
+        assert!(!layers.is_over(&overlay(Kind::Classes)));
+
+        layers.set_errors(Some(Sheet::of_pixels([8, 8], [[9, 8, 7]; 64].into_iter())));
+        let measured = overlay(Kind::Measured);
+        assert_eq!(layers.refresh(&measured).unwrap().pixels[63], [9, 8, 7, 255]);
+        layers.set_errors(None);
+        assert_eq!(layers.refresh(&measured).unwrap().pixels[63], [50, 50, 50, 255]);
+        assert!(!layers.is_over(&measured));
+    }
+}

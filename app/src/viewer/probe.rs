@@ -58,6 +58,7 @@ mod tests {
             bundle: [2, 1],
             layers: 0,
             end_layer: 0,
+            bound: Default::default(),
             budget: None,
             charged: [0.0; 16],
             cells: Vec::new(),

@@ -1,7 +1,7 @@
 //! The inspector: the cells behind one pixel, as a plot and as a table.
 
 use egui::{Align, Layout, Pos2, RichText, Ui, pos2, vec2};
-use renderer::{CellClass, CellDetail};
+use renderer::{Bound, CellClass, CellDetail};
 
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::probe::Probed;
@@ -21,7 +21,10 @@ pub struct Inspector {
 
 /// Size of the contents, in points.
 const WIDTH: f32 = 492.0;
-const TABLE_HEIGHT: f32 = 216.0;
+/// Of the table: what a window of usual height leaves, and the least.
+const TABLE_HEIGHTS: [f32; 2] = [216.0, 80.0];
+/// Height of everything else, with some of the window to spare.
+const OTHERS: f32 = 410.0;
 const MARGIN: f32 = 16.0;
 
 impl Inspector {
@@ -65,7 +68,9 @@ impl Inspector {
         let mut hovered = None;
         inspector_plot::show(ui, session, probed, self.hovered, &mut hovered);
         ui.add_space(6.0);
-        inspector_table::show(ui, probed, TABLE_HEIGHT, self.hovered, &mut hovered);
+        let [most, least] = TABLE_HEIGHTS;
+        let height = (ui.ctx().content_rect().height() - OTHERS).clamp(least, most);
+        inspector_table::show(ui, probed, height, self.hovered, &mut hovered);
         if hovered != self.hovered {
             self.hovered = hovered;
             ui.ctx().request_repaint();
@@ -109,13 +114,15 @@ fn facts(ui: &mut Ui, probed: &Probed) {
         bundle.layers,
         widgets::count(particles),
     );
-    let second = match bundle.budget {
-        None => "Sampled in full: nothing is charged to the budget".to_owned(),
-        Some(budget) => format!(
-            "Charged to the rays of this pixel: {} of {}",
-            plain(f64::from(bundle.charged[probed.column()])),
-            plain(f64::from(budget)),
-        ),
+    let charged = plain(f64::from(bundle.charged[probed.column()]));
+    let second = match (bundle.budget.map(|budget| plain(f64::from(budget))), bundle.bound) {
+        (None, _) => "Sampled in full: nothing is charged to the budget".to_owned(),
+        (Some(budget), Bound::Difference) => {
+            format!("Charged to the rays of this pixel: {charged} of {budget}")
+        }
+        (Some(budget), Bound::Paper) => {
+            format!("Charged to the rays of this bundle, by their interval as a whole: {charged} of {budget}")
+        }
     };
     for text in [first, second] {
         ui.label(RichText::new(text).small().color(theme::MUTED));

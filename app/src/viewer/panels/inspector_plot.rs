@@ -1,7 +1,7 @@
 //! The cells behind a pixel along depth: what the quantity may be in them, and what they charge.
 
 use egui::{Align2, Color32, Painter, Rect, Sense, Stroke, Ui, pos2, vec2};
-use renderer::{BundleDetail, CellClass, CellDetail, KnownValues, TransferFunction};
+use renderer::{Bound, Brick, BundleDetail, CellClass, CellDetail, KnownValues, TransferFunction};
 
 use crate::viewer::probe::Probed;
 use crate::viewer::session::Session;
@@ -52,8 +52,9 @@ impl Axis {
 }
 
 pub fn show(ui: &mut Ui, session: &Session, probed: &Probed, hovered: Option<u32>, now: &mut Option<u32>) {
-    let charges = probed.bundle.budget.is_some();
-    let below = if charges { GAP + CHARGES } else { 0.0 };
+    // By the paper's bound, no cell has a charge of its own.
+    let budget = probed.bundle.budget.filter(|_| probed.bundle.bound == Bound::Difference);
+    let below = if budget.is_some() { GAP + CHARGES } else { 0.0 };
     let size = vec2(ui.available_width(), TITLE + VALUES + below + AXIS);
     let (mut rect, response) = ui.allocate_exact_size(size, Sense::hover());
     rect.min.y += TITLE;
@@ -70,7 +71,7 @@ pub fn show(ui: &mut Ui, session: &Session, probed: &Probed, hovered: Option<u32
     painter.rect_filled(upper, 2, theme::WELL);
     values(painter, session, probed, &axis, hovered);
     let mut bottom = upper.bottom();
-    if let Some(budget) = probed.bundle.budget {
+    if let Some(budget) = budget {
         let top = rect.top() + VALUES + GAP;
         let lower = Rect::from_min_max(pos2(upper.left(), top), pos2(upper.right(), top + CHARGES));
         painter.rect_filled(lower, 2, theme::WELL);
@@ -110,16 +111,27 @@ fn values(painter: &Painter, session: &Session, probed: &Probed, axis: &Axis, ho
         let left = axis.x(cell.cell.layer as f32);
         let width = axis.step();
         let gap = if width > 6.0 { 0.5 } else { 0.0 };
-        let faint = if cell.bricks.is_some() { 0.28 } else { 0.6 };
+        let parts = parts(cell, probed.column());
+        let faint = if parts.is_empty() { 0.6 } else { 0.28 };
         let whole = colour(cell.cell.class);
         bar(left + gap, left + width - gap, cell.values, whole.gamma_multiply(faint));
-        let Some(bricks) = &cell.bricks else { continue };
-        for (number, brick) in bricks[probed.column()].iter().enumerate() {
-            let start = left + 0.25 * width * number as f32;
-            let colour = colour(brick_class(cell, probed.column(), number));
-            bar(start, start + 0.25 * width, brick.values, colour);
+        let step = width / parts.len().max(1) as f32;
+        for (number, (values, class)) in parts.into_iter().enumerate() {
+            let start = left + step * number as f32;
+            bar(start, start + step, values, colour(class));
         }
     }
+}
+
+/// What is known of a cell from front to back: of the bricks of a column, or by the paper's bound of the
+/// cell's slabs; and what became of each.
+fn parts(cell: &CellDetail, column: usize) -> Vec<(KnownValues, CellClass)> {
+    if let Some(slabs) = &cell.slabs {
+        return slabs.iter().map(|values| (*values, cell.cell.class)).collect();
+    }
+    let Some(bricks) = &cell.bricks else { return Vec::new() };
+    let part = |(number, brick): (usize, &Brick)| (brick.values, brick_class(cell, column, number));
+    bricks[column].iter().enumerate().map(part).collect()
 }
 
 /// What became of one brick, as the class of a cell of such bricks.
@@ -150,8 +162,8 @@ fn scale(painter: &Painter, session: &Session, rect: Rect) {
         painter.text(place, Align2::RIGHT_CENTER, text, theme::small_font(), theme::FAINT);
     }
     let place = rect.left_top() + vec2(0.0, -3.0);
-    let text = "u, the quantity in its range: bounds in each cell, and in the bricks of this pixel";
-    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::FAINT);
+    let text = "u, the quantity in its range: bounds in each cell, and in its parts along this pixel";
+    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::MUTED);
 }
 
 /// What is charged to the pixel's rays, added up from front to back, under the budget.
@@ -181,7 +193,7 @@ fn charged(painter: &Painter, probed: &Probed, budget: f32, axis: &Axis, rect: R
 
     let place = rect.left_top() + vec2(0.0, -3.0);
     let text = format!("charged from the front up to here, {} in all; E: the budget", plain(f64::from(all)));
-    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::FAINT);
+    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::MUTED);
 }
 
 /// Depths below the plots, and where the rays end.
@@ -198,7 +210,11 @@ fn depths(painter: &Painter, bundle: &BundleDetail, axis: &Axis, bottom: f32) {
         let align = if x > whole.center().x { Align2::RIGHT_TOP } else { Align2::LEFT_TOP };
         let aside = if x > whole.center().x { -4.0 } else { 4.0 };
         let place = pos2(x + aside, whole.top() + 18.0);
-        painter.text(place, align, "the rays end", theme::small_font(), theme::MUTED);
+        let text = "the rays end".to_owned();
+        let galley = painter.layout_no_wrap(text, theme::small_font(), theme::TEXT);
+        let area = align.anchor_size(place, galley.size());
+        painter.rect_filled(area.expand2(vec2(3.0, 1.0)), 2, Color32::from_black_alpha(190));
+        painter.galley(area.min, galley, theme::TEXT);
     }
     let (Some(first), Some(last)) = (bundle.cells.first(), bundle.cells.last()) else { return };
     let ends = [

@@ -16,7 +16,7 @@ const COLUMNS: [(&str, f32, &str); 7] = [
     ("Layer", 36.0, "Number of the cell along the rays, 16 slices each"),
     ("Depth", 140.0, "View depths where the cell begins and ends"),
     ("Class", 154.0, "What became of the cell"),
-    ("Particles", 304.0, "Particles in the cell"),
+    ("Particles", 284.0, "Particles in the cell"),
     ("u", 386.0, "Bounds of the quantity in its range, over all samples of the cell"),
     ("Bricks", 428.0, "Sampled bricks of 64; behind a plus, those sampled once for four slices"),
     ("Charge", 484.0, "What the cell adds to the error of this pixel's rays, at most"),
@@ -45,7 +45,7 @@ fn header(ui: &mut Ui) {
     let mut left = 0.0;
     for (number, (title, edge, meaning)) in COLUMNS.into_iter().enumerate() {
         let (align, right) = match number {
-            CLASS => (Align2::LEFT_CENTER, COLUMNS[CLASS + 1].1 - 54.0),
+            CLASS => (Align2::LEFT_CENTER, COLUMNS[CLASS + 1].1 - 56.0),
             _ => (Align2::RIGHT_CENTER, edge),
         };
         let place = pos2(rect.left() + edge, rect.center().y);
@@ -83,7 +83,8 @@ fn row(ui: &mut Ui, cell: &CellDetail, column: usize, hovered: Option<u32>) -> b
 const NOTHING: &str = "–";
 
 fn texts(cell: &CellDetail, column: usize) -> [String; COLUMNS.len()] {
-    let [near, far] = cell.depths.map(widgets::short);
+    let decimals = decimals(cell.depths);
+    let [near, far] = cell.depths.map(|depth| format!("{depth:.decimals$}"));
     let cheap = || NOTHING.to_owned();
     let bricks = match (cell.cell.sampled.count(), cell.cell.coarse.count()) {
         (0, 0) => cheap(),
@@ -102,10 +103,38 @@ fn texts(cell: &CellDetail, column: usize) -> [String; COLUMNS.len()] {
     ]
 }
 
+/// Decimals by which the ends of a cell are told apart, so that all lines have about as many.
+fn decimals([near, far]: [f64; 2]) -> usize {
+    let step = (far - near).max(f64::MIN_POSITIVE);
+    (1.0 - step.log10().floor()).clamp(0.0, 6.0) as usize
+}
+
 fn bounds(values: KnownValues) -> String {
     match values {
         KnownValues::Unknown => NOTHING.to_owned(),
         KnownValues::Empty => "empty".to_owned(),
         KnownValues::Between { low, high, .. } => format!("{low:.3}–{high:.3}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ends_of_a_cell_are_told_apart() {
+        assert_eq!(decimals([4.821, 4.885]), 3);
+        assert_eq!(decimals([5.2, 5.29]), 3);
+        assert_eq!(decimals([100.0, 180.0]), 0);
+        assert_eq!(decimals([1e-9, 2e-9]), 6);
+    }
+
+    #[test]
+    fn bounds_are_short() {
+        let between = KnownValues::Between { low: 0.12345, high: 1.0, covered: true };
+        assert_eq!(
+            [between, KnownValues::Empty, KnownValues::Unknown].map(bounds),
+            ["0.123–1.000", "empty", "–"]
+        );
     }
 }

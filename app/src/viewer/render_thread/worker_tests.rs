@@ -5,7 +5,8 @@ use crate::frames::Sequence;
 
 fn job(frame: &Arc<Frame>, width: u32) -> Job {
     let mut view = View::default();
-    (view.image.width, view.image.height) = (width, 16);
+    // So high that supports are wide enough for adaptive sampling to pay.
+    (view.image.width, view.image.height) = (width, 64);
     Job { frame: Arc::clone(frame), index: 0, view, moving: false, looks: Looks::default() }
 }
 
@@ -64,4 +65,50 @@ fn a_lost_device_is_opened_again_and_the_same_picture_drawn() {
     let reports = draw(&mut worker, 24);
     assert!(reports.iter().any(|report| matches!(report, Report::Recovered(_))));
     assert_eq!(pixels(&reports), before);
+}
+
+#[test]
+fn a_look_into_the_picture_costs_no_other_picture() {
+    let Some((mut worker, frame, reports)) = worker() else { return };
+    let mut draw = |job: &Job| {
+        assert!(worker.serve(job).is_ok());
+        let shown = |report| match report {
+            Report::Picture(shown) => Some(shown),
+            _ => None,
+        };
+        reports.try_iter().filter_map(shown).last().expect("a picture")
+    };
+    let mut job = job(&frame, 40);
+    let plain = draw(&job);
+    assert!(plain.cells.is_none() && plain.probed.is_none());
+
+    job.looks = Looks { cells: true, probe: Some([20, 32]) };
+    let looked = draw(&job);
+    assert!(looked.pixels == plain.pixels && looked.stats == plain.stats, "it is the same picture");
+    let (cells, probed) = (looked.cells.unwrap(), looked.probed.unwrap());
+    assert_eq!((cells.size, cells.classes()), ([40, 64], looked.stats.cells_by_class));
+    assert_eq!((probed.pixel, probed.bundle.bundle), ([20, 32], [2, 4]));
+    let listed: Vec<_> = probed.bundle.cells.iter().map(|cell| cell.cell).collect();
+    assert_eq!(listed, cells.bundle([2, 4]).cells);
+
+    // Of another pixel; of one that is not there; and of a picture that is quick to be had.
+    job.looks.probe = Some([0, 0]);
+    let other = draw(&job);
+    assert!(Arc::ptr_eq(other.cells.as_ref().unwrap(), &cells));
+    assert_eq!(other.probed.unwrap().asked, [0, 0]);
+    job.looks.probe = Some([40, 0]);
+    assert!(draw(&job).probed.is_none());
+    (job.looks.probe, job.moving, job.view.image.width) = (Some([20, 32]), true, 400);
+    let moving = draw(&job);
+    let probed = moving.probed.unwrap();
+    assert_eq!(
+        (probed.divisor, probed.pixel),
+        (moving.divisor, [20, 32].map(|place| place / moving.divisor))
+    );
+    assert_eq!(moving.cells.unwrap().size, [moving.width, moving.height]);
+
+    // Nobody asks any more.
+    job.looks = Looks::default();
+    let plain = draw(&job);
+    assert!(plain.cells.is_none() && plain.probed.is_none());
 }

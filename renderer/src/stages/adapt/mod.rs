@@ -17,6 +17,7 @@ use crate::kernel::Kernel;
 use crate::plan::Tile;
 use crate::sampling::{Bound, Without};
 use crate::scene::Scene;
+pub(crate) use paper::CellBounds;
 use paper::Paper;
 
 /// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
@@ -133,6 +134,11 @@ impl Adapt {
         .map(Buffer::binding);
         let pipeline = &self.pipelines[&(scene.kernel.code(), scene.sampling.without)];
         pipeline.dispatch(gpu, pass, &[shared, &own].concat(), bundles);
+    }
+
+    /// [`CellBounds`] of each slot, where they were chosen by the paper's bound.
+    pub(crate) fn intervals(&self) -> &Buffer {
+        &self.paper.bounds
     }
 
     /// Asks for the numbers of cells to be sampled as a whole and in parts.

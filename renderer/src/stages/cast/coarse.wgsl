@@ -33,7 +33,7 @@ fn cast_coarsely(layer: u32, first: u32, end: u32, samples: Samples, slope: vec2
     let from_axis = ray_from_axis(lane);
     let direction = vec3(slope + from_axis, 1.0);
     let direction_squared = dot(direction, direction);
-    let reference = clamp(quantities[pairs[first]], 0.0, 1.0);
+    let reference = reference_of(first);
     let quads = (samples.count + 3u) / 4u;
     var w0 = vec4(0.0); var w1 = vec4(0.0);
     var q0 = vec4(0.0); var q1 = vec4(0.0);

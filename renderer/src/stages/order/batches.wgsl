@@ -1,30 +1,34 @@
 // Puts the references of cells in order, as many cells at a time as shared memory holds. A workgroup
-// takes a bundle.
+// takes a bundle, eight lanes a cell.
 //
 // Keys are as good as random: those of a cell of n references fall into n buckets, one each more or
-// less, which are in order among themselves. What is left is to look for its place in a bucket.
+// less, which are in order among themselves. What is left is to look for a key's place in its bucket.
 
 const LANES: u32 = 64u;
+const LANES_OF_CELL: u32 = 8u;
 // References of a batch. Larger cells are left to `order_large`,
-const BATCH: u32 = 512u;
+const BATCH: u32 = 768u;
 // and so are cells with more than this in a bucket: particles at one place.
-const MOST_ALIKE: u32 = 32u;
-const PER_LANE: u32 = BATCH / LANES;
+const MOST_ALIKE: u32 = 12u;
+const BUCKETS_OF_LANE: u32 = BATCH / LANES;
+// The lower bits of a key give way to the number of its reference in the batch.
+const NUMBER_BITS: u32 = 10u;
+const NUMBERS: u32 = (1u << NUMBER_BITS) - 1u;
 
 // Where the next cells end, from the first reference of the batch on.
 var<workgroup> ends: array<u32, LANES>;
-// The batch as it was: particles, their keys and buckets.
+// 1 for those of them that are left to `order_large`.
+var<workgroup> is_left: array<u32, LANES>;
+// The batch as it was: particles, and their keys.
 var<workgroup> particles: array<u32, BATCH>;
 var<workgroup> keys: array<u32, BATCH>;
-var<workgroup> buckets: array<u32, BATCH>;
-// For each bucket the number of its members; then the place of its next one; at last where it ends.
+// For each bucket the number of its keys; then the place of its next one; at last where it ends. The
+// buckets of a cell lie where its references do.
 var<workgroup> counters: array<atomic<u32>, BATCH>;
-// Numbers of the batch's references, bucket by bucket.
-var<workgroup> members: array<u32, BATCH>;
-// Members of a lane's buckets and of those of all lanes before.
+// Keys bucket by bucket.
+var<workgroup> in_buckets: array<u32, BATCH>;
+// Keys in a lane's buckets and in those of all lanes before.
 var<workgroup> sums: array<u32, LANES>;
-// 1 for the cells of the batch that are left to `order_large`.
-var<workgroup> is_left: array<u32, LANES>;
 
 // How many of the first `count` cells end at or before a reference: the number of its cell.
 fn cells_before(reference: u32, count: u32) -> u32 {
@@ -41,53 +45,47 @@ fn cells_before(reference: u32, count: u32) -> u32 {
     return low;
 }
 
-// Those of a cell lie where its references do.
-fn bucket_of(key: u32, reference: u32, cell_count: u32) -> u32 {
-    let cell = cells_before(reference, cell_count);
-    let begin = select(ends[max(cell, 1u) - 1u], 0u, cell == 0u);
-    let count = ends[cell] - begin;
-    // Exact up to 2²⁴, and monotone.
-    let share = f32(key >> 8u) * (1.0 / 16777216.0);
-    return begin + min(u32(share * f32(count)), count - 1u);
+// The first reference of a cell of the batch, and the one after the last.
+fn references_of(cell: u32) -> vec2<u32> {
+    return vec2(select(ends[max(cell, 1u) - 1u], 0u, cell == 0u), ends[cell]);
 }
 
-fn load(first: u32, count: u32, cell_count: u32, lane: u32) {
+fn bucket_of(key: u32, cell: vec2<u32>) -> u32 {
+    let count = cell.y - cell.x;
+    // Exact, and so monotone.
+    let share = f32(key >> NUMBER_BITS) * (1.0 / f32(1u << (32u - NUMBER_BITS)));
+    return cell.x + min(u32(share * f32(count)), count - 1u);
+}
+
+// Loads the references of `cell_count` cells, from `first` on, and counts the keys of each bucket.
+fn load(first: u32, cell_count: u32, lane: u32) {
     for (var i = lane; i < BATCH; i += LANES) {
         atomicStore(&counters[i], 0u);
     }
     workgroupBarrier();
-    for (var i = lane; i < count; i += LANES) {
-        let particle = pairs[first + i];
-        let key = key_of(particle);
-        let bucket = bucket_of(key, i, cell_count);
-        particles[i] = particle;
-        keys[i] = key;
-        buckets[i] = bucket;
-        atomicAdd(&counters[bucket], 1u);
+    for (var number = lane / LANES_OF_CELL; number < cell_count; number += LANES / LANES_OF_CELL) {
+        let cell = references_of(number);
+        for (var i = cell.x + lane % LANES_OF_CELL; i < cell.y; i += LANES_OF_CELL) {
+            let particle = pairs[first + i];
+            let key = (key_of(particle) & ~NUMBERS) | i;
+            particles[i] = particle;
+            keys[i] = key;
+            atomicAdd(&counters[bucket_of(key, cell)], 1u);
+        }
     }
     workgroupBarrier();
 }
 
-// Leaves the cells of the lane's buckets that are too full.
-fn leave_full(cell_count: u32, lane: u32) {
-    for (var bucket = PER_LANE * lane; bucket < PER_LANE * (lane + 1u); bucket += 1u) {
-        if atomicLoad(&counters[bucket]) > MOST_ALIKE {
+// From the number of each bucket's keys to where they begin.
+fn sum_counters(cell_count: u32, lane: u32) {
+    let first = BUCKETS_OF_LANE * lane;
+    var sum = 0u;
+    for (var bucket = first; bucket < first + BUCKETS_OF_LANE; bucket += 1u) {
+        let count = atomicLoad(&counters[bucket]);
+        sum += count;
+        if count > MOST_ALIKE {
             is_left[cells_before(bucket, cell_count)] = 1u;
         }
-    }
-}
-
-// From the number of each bucket's members to where they begin.
-fn sum_counters(cell_count: u32, lane: u32) {
-    var sum = 0u;
-    var most = 0u;
-    for (var i = 0u; i < PER_LANE; i += 1u) {
-        let members = atomicLoad(&counters[PER_LANE * lane + i]);
-        sum += members;
-        most = max(most, members);
-    }
-    if most > MOST_ALIKE {
-        leave_full(cell_count, lane);
     }
     sums[lane] = sum;
     workgroupBarrier();
@@ -98,61 +96,71 @@ fn sum_counters(cell_count: u32, lane: u32) {
         workgroupBarrier();
     }
     var begin = sums[lane] - sum;
-    for (var i = 0u; i < PER_LANE; i += 1u) {
-        begin += atomicExchange(&counters[PER_LANE * lane + i], begin);
+    for (var bucket = first; bucket < first + BUCKETS_OF_LANE; bucket += 1u) {
+        let count = atomicLoad(&counters[bucket]);
+        atomicStore(&counters[bucket], begin);
+        begin += count;
     }
     workgroupBarrier();
 }
 
-// Where a member of a bucket is to be, once counters say where buckets end.
-fn place_of(member: u32) -> u32 {
-    let reference = members[member];
-    let bucket = buckets[reference];
+fn fill_buckets(cell_count: u32, lane: u32) {
+    for (var number = lane / LANES_OF_CELL; number < cell_count; number += LANES / LANES_OF_CELL) {
+        let cell = references_of(number);
+        for (var i = cell.x + lane % LANES_OF_CELL; i < cell.y; i += LANES_OF_CELL) {
+            let key = keys[i];
+            in_buckets[atomicAdd(&counters[bucket_of(key, cell)], 1u)] = key;
+        }
+    }
+    workgroupBarrier();
+}
+
+// The place of a key among those of its bucket, once counters say where buckets end.
+fn place_of(key: u32, cell: vec2<u32>) -> u32 {
+    let bucket = bucket_of(key, cell);
     let begin = select(atomicLoad(&counters[max(bucket, 1u) - 1u]), 0u, bucket == 0u);
     let end = atomicLoad(&counters[bucket]);
-    if end - begin > MOST_ALIKE {
-        // Of a cell that is left: it may stay.
-        return member;
-    }
-    let key = keys[reference];
     var place = begin;
-    var alike = 0u;
+    var has_twin = false;
     for (var i = begin; i < end; i += 1u) {
-        let other = keys[members[i]];
+        let other = in_buckets[i];
         place += select(0u, 1u, other < key);
-        alike += select(0u, 1u, other == key);
+        has_twin = has_twin || are_twins(other, key);
     }
-    if alike > 1u {
+    if has_twin {
+        place = begin;
         for (var i = begin; i < end; i += 1u) {
-            let other = members[i];
-            if keys[other] == key && precedes(particles[other], particles[reference]) {
-                place += 1u;
-            }
+            let other = in_buckets[i];
+            let before = precedes(particles[other & NUMBERS], particles[key & NUMBERS]);
+            place += select(0u, 1u, select(other < key, before, are_twins(other, key)));
         }
     }
     return place;
 }
 
-// Puts the references of `cell_count` cells in order, `count` of them from `first` on.
-fn order_batch(first: u32, count: u32, cell_count: u32, lane: u32) {
-    load(first, count, cell_count, lane);
-    sum_counters(cell_count, lane);
-    for (var i = lane; i < count; i += LANES) {
-        members[atomicAdd(&counters[buckets[i]], 1u)] = i;
+// Whether two keys differ in the number of their references alone.
+fn are_twins(a: u32, b: u32) -> bool {
+    return a != b && a >> NUMBER_BITS == b >> NUMBER_BITS;
+}
+
+// Cells that are left stay as they are.
+fn write_back(first: u32, cell_count: u32, lane: u32) {
+    for (var number = lane / LANES_OF_CELL; number < cell_count; number += LANES / LANES_OF_CELL) {
+        let cell = references_of(number);
+        let end = select(cell.y, cell.x, is_left[number] == 1u);
+        for (var i = cell.x + lane % LANES_OF_CELL; i < end; i += LANES_OF_CELL) {
+            let key = in_buckets[i];
+            pairs[first + place_of(key, cell)] = particles[key & NUMBERS];
+        }
     }
-    workgroupBarrier();
-    for (var i = lane; i < count; i += LANES) {
-        pairs[first + place_of(i)] = particles[members[i]];
-    }
-    workgroupBarrier();
 }
 
 // Leaves cells, of `cell_count` from `first_cell` on, to `order_large`.
 fn leave(first_cell: u32, cell_count: u32, lane: u32) {
     if lane < cell_count && is_left[lane] == 1u {
-        let count = ends[lane] - select(ends[max(lane, 1u) - 1u], 0u, lane == 0u);
+        let cell = references_of(lane);
         large[atomicAdd(&totals[LARGE_CELLS], 1u)] = first_cell + lane;
-        atomicMax(&totals[LARGEST_CELL], count);
+        atomicMax(&totals[LARGEST_CELL], cell.y - cell.x);
     }
 }
 
@@ -172,16 +180,18 @@ fn order_batches(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     var layer = 0u;
     while layer < tile.layers {
         ends[lane] = cells[row + min(layer + lane, tile.layers - 1u)] - first;
-        is_left[lane] = 0u;
         workgroupBarrier();
         let small_cells = cells_before(BATCH, min(LANES, tile.layers - layer));
         let cell_count = max(small_cells, 1u);
         let count = ends[cell_count - 1u];
-        if count > BATCH {
-            is_left[lane] = 1u;
-        } else if count > 1u {
-            order_batch(first, count, cell_count, lane);
+        is_left[lane] = select(0u, 1u, count > BATCH);
+        if count > 1u && count <= BATCH {
+            load(first, cell_count, lane);
+            sum_counters(cell_count, lane);
+            fill_buckets(cell_count, lane);
+            write_back(first, cell_count, lane);
         }
+        workgroupBarrier();
         leave(row + layer, cell_count, lane);
         walked += select(count, 0u, count > CROWD);
         first += count;

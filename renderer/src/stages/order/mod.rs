@@ -14,7 +14,7 @@ pub(crate) struct Order {
 }
 
 /// A cell that is left from the batches has more references than this (`MOST_ALIKE` of `batches.wgsl`).
-const MOST_ALIKE: u64 = 32;
+const MOST_ALIKE: u64 = 12;
 
 impl Order {
     pub(crate) fn new(gpu: &Gpu) -> Order {

@@ -1,7 +1,7 @@
 // The paper's choice of sampling levels and super-pixels (HPG 2016, Sec. 4.4 and 5).
 //
-// A workgroup takes a bundle: from front to back it bounds each cell at every level, then it goes back
-// and gives each cell the choice whose interval is the widest that the tolerance bears. A cell that stays
+// A workgroup takes a bundle: once it has bounded the cells at every level, it goes from back to front and
+// gives each cell the choice whose interval is the widest that the tolerance bears. A cell that stays
 // at level 0 adds the width of its own interval all the same, unless that is relaxed away.
 
 @group(0) @binding(12) var<storage, read_write> cell_values: array<CellEntry>;
@@ -21,123 +21,6 @@ struct Work {
     wholes: atomic<u32>,
     parts: atomic<u32>,
     sampled: atomic<u32>,
-}
-
-const LEVELS: u32 = 5u;
-
-// What is known of a cell that holds particles.
-struct CellBounds {
-    // Of each slab: these stay as long as the quantity does.
-    values: array<vec2<f32>, SLABS>,
-    // Of the cell at each level, and of all cells before it at level 0, relaxed: of one choice.
-    levels: array<Interval, LEVELS>,
-    front: Interval,
-}
-
-// A ray has ended where this share of the budget may still come through.
-const OCCLUDED: f32 = 0.0625;
-
-// The cell's slot; and how often its slabs are to be looked at: not at all where they are known.
-var<workgroup> slot: u32;
-var<workgroup> unknown: u32;
-var<workgroup> extremes: array<Extremes, SLABS>;
-// The cell at level 0.
-var<workgroup> finest: Interval;
-
-// Finds the cell's slot, or gives it one. A crowded cell's slabs are never looked at.
-fn enter_cell(cell: u32, crowded: bool, lane: u32) {
-    if lane == 0u {
-        slot = cell_values[cell].slot;
-        unknown = select(0u, 1u, slot == 0u && !crowded);
-        if slot == 0u {
-            slot = atomicAdd(&slots_taken, 1u) + 2u;
-            cell_values[cell].slot = slot;
-        }
-    }
-    workgroupBarrier();
-}
-
-// Bounds of the cell at one level (Sec. 4.2): each sample is as uncertain as all those that it stands for.
-fn interval_at(level: u32, lengths: vec2<f32>) -> Interval {
-    let group = 1u << level;
-    var cell = nothing();
-    for (var first = 0u; first < SLABS; first += group) {
-        var hull = extremes[first];
-        for (var i = 1u; i < group; i += 1u) {
-            let other = extremes[first + i];
-            hull = Extremes(min(hull.low, other.low), max(hull.high, other.high));
-        }
-        for (var i = first; i < first + group; i += 1u) {
-            cell = behind(cell, sample_interval(hull, frame.slab_depth[i / 4u][i % 4u] * lengths));
-        }
-    }
-    return cell;
-}
-
-// Bounds the cell at every level. `lengths`: of rays in it, as `lengths_in_bundle` has them.
-fn bound_cell(cell: u32, first: u32, end: u32, slope: vec2<f32>, lane: u32) {
-    let crowded = end - first > CROWD;
-    enter_cell(cell, crowded, lane);
-    let layer = cell % tile.layers;
-    for (var once = 0u; once < workgroupUniformLoad(&unknown); once += 1u) {
-        let values = values_of_slab(layer, first, end, slope, lane);
-        if lane < SLABS {
-            bounds[slot - 2u].values[lane] = values;
-        }
-    }
-    if lane < SLABS {
-        // Anything may be in a crowded cell, or nothing.
-        let values = select(bounds[slot - 2u].values[lane], vec2(0.0, 1.0), crowded);
-        extremes[lane] = extremes_of_slab(values);
-    }
-    workgroupBarrier();
-    if lane < LEVELS {
-        let lengths = lengths_in_bundle(slope) * layer_depth[tile.first_layer + layer].x;
-        let interval = interval_at(lane, lengths);
-        bounds[slot - 2u].levels[lane] = interval;
-        if lane == 0u {
-            finest = interval;
-        }
-    }
-}
-
-// What stands in front of the rest of a bundle.
-struct Front {
-    interval: Interval,
-    // The layer after the last one that is seen, and how much light may come from behind it.
-    end_layer: u32,
-    hidden: f32,
-}
-
-// By how much the lower bounds of a cell are raised.
-fn slack_of(level_0: Interval) -> vec4<f32> {
-    return chunk.relaxation * widths(level_0);
-}
-
-// Bounds the cells of a bundle, from front to back, until nothing more is seen.
-fn bound_cells(index: u32, slope: vec2<f32>, lane: u32) -> Front {
-    var front = Front(nothing(), tile.layers, 0.0);
-    var first = first_of_cell(index * tile.layers);
-    for (var layer = 0u; layer < tile.layers; layer += 1u) {
-        let cell = index * tile.layers + layer;
-        let end = cells[cell];
-        if end > first && end <= tile.pair_capacity {
-            bound_cell(cell, first, end, slope, lane);
-            let level_0 = workgroupUniformLoad(&finest);
-            if lane == 0u {
-                bounds[slot - 2u].front = front.interval;
-            }
-            front.interval = behind(front.interval, relaxed(level_0, slack_of(level_0)));
-            let open = 1.0 - front.interval.low.a;
-            if open <= OCCLUDED * chunk.budget {
-                front.end_layer = layer + 1u;
-                front.hidden = open;
-                break;
-            }
-        }
-        first = end;
-    }
-    return front;
 }
 
 // How a cell is shown, sampled at a level or by one colour; and what that may do to light.
@@ -234,12 +117,12 @@ fn choose_cells(index: u32, front: Front) -> f32 {
             continue;
         }
         let place = cell_values[cell].slot - 2u;
-        if bounds[place].levels[0].high.a == 0.0 {
+        if is_left_out(bounds[place].levels[0]) {
             sampled[cell] = 0u;
             note_class(cell, CELLS_TRANSPARENT, 0u);
             continue;
         }
-        let choice = choose(place, back, budget);
+        let choice = choose(place, back, select(budget, 0.0, is_crowd(cell)));
         back = behind(choice.interval, back);
         adapted |= choice.kind > 0u;
         file_cell(cell, place, choice.kind);
@@ -255,9 +138,6 @@ fn choose_by_intervals(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(loc
     }
     let index = bundle_of(turn);
     let front = bound_cells(index, ray_slope(frame, corner_of(index) + 3.5), lane);
-    // Bounds were written by one lane each.
-    storageBarrier();
-    workgroupBarrier();
     if lane == 0u {
         let charged = choose_cells(index, front);
         for (var column = 0u; column < COLUMNS; column += 1u) {

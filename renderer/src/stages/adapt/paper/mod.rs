@@ -10,25 +10,30 @@
 //! Extremes of the quantity in each slab, and its coverage, stay until the grid or the quantity changes;
 //! intervals and choices are made anew for each picture.
 
+use bytemuck::{Pod, Zeroable};
+
 use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, TRANSFER_WGSL};
 use super::Adapt;
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     FRAME_WGSL,
     BUNDLE_WGSL,
     TRANSFER_WGSL,
     HULL_WGSL,
     include_str!("slabs.wgsl"),
     include_str!("intervals.wgsl"),
+    include_str!("cells.wgsl"),
     include_str!("choice.wgsl"),
 ];
 
-/// `CellBounds` of `choice.wgsl`.
+/// `CellBounds` of `cells.wgsl`.
 #[repr(C)]
-struct CellBounds {
-    values: [[f32; 2]; 16],
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct CellBounds {
+    /// Of each slab, as bricks have them.
+    pub values: [[f32; 2]; 16],
     levels: [[f32; 8]; 5],
     front: [f32; 8],
 }
@@ -36,7 +41,7 @@ struct CellBounds {
 pub(super) struct Paper {
     pipeline: Pipeline,
     /// [`CellBounds`] of each slot.
-    bounds: Buffer,
+    pub bounds: Buffer,
 }
 
 impl Paper {

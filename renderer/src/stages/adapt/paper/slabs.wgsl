@@ -2,7 +2,8 @@
 // and whether every ray surely meets a particle. No kernel weight is computed for it.
 //
 // Lane l has slab l mod 16 for the extremes and column l mod 16 for the coverage, and every fourth
-// particle. Lengths and places are as in the cell.
+// particle. They are not brought to shared memory first: few lanes would share them. Lengths and places
+// are as in the cell.
 
 const SLABS: u32 = 16u;
 const ALL_SLABS: u32 = 0xffffu;
@@ -11,24 +12,21 @@ const FAR: f32 = 1e30;
 const COLUMN_REACH: f32 = 0.7072;
 // Wider, or narrower where a ray is to be covered, than all rounding of particles' places.
 const RADIUS_SLACK: f32 = 1e-4;
+// The same for the number of the slab at a depth.
+const SLAB_SLACK: f32 = 0.01;
 
-// Place and radius of each particle that is loaded, and its quantity in [0, 1].
-var<workgroup> balls: array<vec4<f32>, LANES>;
-var<workgroup> loads: array<f32, LANES>;
-// Of each slab: bits of the extremes, which for floats that are not negative are in their order.
-var<workgroup> least: array<atomic<u32>, SLABS>;
-var<workgroup> greatest: array<atomic<u32>, SLABS>;
-// Of each column: bits of the slabs in which one particle or another holds all its rays.
-var<workgroup> covered: array<atomic<u32>, COLUMNS>;
+// What a lane found: extremes in its slab, and bits of the slabs in which a single particle holds all rays
+// of its column.
+struct Found {
+    low: f32,
+    high: f32,
+    held: u32,
+}
+
+var<workgroup> found: array<Found, LANES>;
 
 fn edge_of_slab(edge: u32) -> f32 {
     return frame.slab_edge[edge / 4u][edge % 4u];
-}
-
-fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32) {
-    let particle = particle_in_cell(place, middle, depth, 0.0);
-    balls[lane] = vec4(particle.ball.xyz, inverseSqrt(particle.ball.w));
-    loads[lane] = clamp(particle.quantity, 0.0, 1.0);
 }
 
 // A column's axis: where it crosses the middle of the cell, and its direction per unit of depth.
@@ -48,70 +46,67 @@ fn chord(axis: Axis, centre: vec3<f32>, radius: f32) -> vec2<f32> {
     return select(vec2(1.0, -1.0), vec2(closest - reach, closest + reach), radius > 0.0 && rest > 0.0);
 }
 
-// Slabs that lie between two depths as a whole: both their edges do.
+// Real numbers of slabs at two depths in the cell, 8 in its middle.
+fn slabs_at(depths: vec2<f32>) -> vec2<f32> {
+    let x = clamp(depths, vec2(edge_of_slab(0u)), vec2(edge_of_slab(SLABS)));
+    // ln(1 + x), with full relative precision for small x.
+    let series = x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 3.0 - x * (1.0 / 4.0 - x * (1.0 / 5.0)))));
+    return 8.0 + select(log(1.0 + x), series, abs(x) < vec2(0.05)) / frame.log_step;
+}
+
+// Bits of the slabs that lie between two depths as a whole.
 fn slabs_between(depths: vec2<f32>) -> u32 {
-    var edges = 0u;
-    for (var i = 0u; i < 5u; i += 1u) {
-        let edge = frame.slab_edge[i];
-        let inside = (edge >= vec4(depths.x)) & (edge <= vec4(depths.y));
-        let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), inside);
-        edges |= (bits.x | bits.y | bits.z | bits.w) << (4u * i);
-    }
-    return edges & (edges >> 1u) & ALL_SLABS;
+    let at = slabs_at(depths);
+    let first = select(u32(ceil(at.x + SLAB_SLACK)), 0u, depths.x <= edge_of_slab(0u));
+    let end = select(u32(floor(at.y - SLAB_SLACK)), SLABS, depths.y >= edge_of_slab(SLABS));
+    return select(0u, (1u << end) - (1u << first), end > first && depths.x < depths.y);
 }
 
-// Extremes over the particles whose depth range meets the closed slab, wherever it lies across.
-fn meets_slab(ball: vec4<f32>, slab: u32) -> bool {
+// Whether a particle's depth range meets the closed slab between two edges, wherever it lies across.
+fn meets_slab(ball: vec4<f32>, edges: vec2<f32>) -> bool {
     let radius = ball.w * (1.0 + RADIUS_SLACK);
-    return ball.z - radius <= edge_of_slab(slab + 1u) && ball.z + radius >= edge_of_slab(slab);
+    return ball.z - radius <= edges.y && ball.z + radius >= edges.x;
 }
 
-// Values of the lane's slab, as hull.wgsl has them, from the particles `first` to `end`. All lanes together.
-fn values_of_slab(layer: u32, first: u32, end: u32, slope: vec2<f32>, lane: u32) -> vec2<f32> {
+// Looks through the particles `first` to `end` of a cell.
+fn look_into_cell(layer: u32, first: u32, end: u32, slope: vec2<f32>, lane: u32) {
     let depths = layer_depth[tile.first_layer + layer];
     let middle = vec3(depths.x * slope, depths.y);
     let number = lane % SLABS;
+    let edges = vec2(edge_of_slab(number), edge_of_slab(number + 1u));
     let from_axis = column_from_axis(number);
     let axis = Axis(from_axis, vec3(slope + from_axis, 1.0));
     let reach = COLUMN_REACH * frame.pitch * (1.0 + edge_of_slab(SLABS));
-    if lane < SLABS {
-        atomicStore(&least[lane], bitcast<u32>(FAR));
-        atomicStore(&greatest[lane], 0u);
-        atomicStore(&covered[lane], 0u);
+    var mine = Found(FAR, 0.0, 0u);
+    for (var i = first + lane / SLABS; i < end; i += LANES / SLABS) {
+        let particle = particle_in_cell(i, middle, depths.x, 0.0);
+        let ball = vec4(particle.ball.xyz, inverseSqrt(particle.ball.w));
+        let quantity = clamp(particle.quantity, 0.0, 1.0);
+        let met = meets_slab(ball, edges);
+        mine.low = select(mine.low, min(mine.low, quantity), met);
+        mine.high = select(mine.high, max(mine.high, quantity), met);
+        mine.held |= slabs_between(chord(axis, ball.xyz, ball.w * (1.0 - RADIUS_SLACK) - reach));
     }
-    var low = FAR;
-    var high = 0.0;
-    var held = 0u;
-    for (var base = first; base < end; base += LANES) {
-        if base + lane < end {
-            load_particle(base + lane, lane, middle, depths.x);
-        }
-        workgroupBarrier();
-        let loaded = min(LANES, end - base);
-        for (var i = lane / SLABS; i < loaded; i += LANES / SLABS) {
-            let ball = balls[i];
-            let met = meets_slab(ball, number);
-            low = select(low, min(low, loads[i]), met);
-            high = select(high, max(high, loads[i]), met);
-            held |= slabs_between(chord(axis, ball.xyz, ball.w * (1.0 - RADIUS_SLACK) - reach));
-        }
-        workgroupBarrier();
-    }
-    atomicMin(&least[number], bitcast<u32>(low));
-    atomicMax(&greatest[number], bitcast<u32>(high));
-    atomicOr(&covered[number], held);
-    workgroupBarrier();
-    return gathered_values(number);
+    found[lane] = mine;
 }
 
-fn gathered_values(slab: u32) -> vec2<f32> {
-    var everywhere = ALL_SLABS;
+// Values of a slab, as hull.wgsl has them, from what all lanes found.
+fn values_of_slab(slab: u32) -> vec2<f32> {
+    var low = FAR;
+    var high = 0.0;
+    var covered = ALL_SLABS;
     for (var column = 0u; column < COLUMNS; column += 1u) {
-        everywhere &= atomicLoad(&covered[column]);
+        var held = 0u;
+        for (var i = column; i < LANES; i += COLUMNS) {
+            held |= found[i].held;
+        }
+        covered &= held;
     }
-    let low = bitcast<f32>(atomicLoad(&least[slab]));
-    let high = bitcast<f32>(atomicLoad(&greatest[slab]));
-    let cover = select(0.0, COVERED, (everywhere >> slab & 1u) == 1u);
+    for (var i = slab; i < LANES; i += SLABS) {
+        low = min(low, found[i].low);
+        high = max(high, found[i].high);
+    }
+    let cover = select(0.0, COVERED, (covered >> slab & 1u) == 1u);
     // Rounded outward by as much as a sample's quantity may be off.
     let values = vec2(max(low - 2e-6, 0.0), min(high + 2e-6, 1.0) + cover);
     return select(values, EMPTY, low > high);
