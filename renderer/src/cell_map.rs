@@ -196,10 +196,10 @@ pub struct CellDetail {
     pub values: KnownValues,
     /// Where they are known: by our bound.
     pub bricks: Option<Box<CellBricks>>,
-    /// With the bricks: colour and opacity that stand for each column where none of it is sampled.
-    pub shown: Option<Box<[[f32; 4]; COLUMNS]>>,
     /// By the paper's bound.
     pub slabs: Option<Box<[KnownValues; CELL_SLICES as usize]>>,
+    /// With the bricks: colour and opacity that stand for each column where none of it is sampled.
+    pub shown: Option<Box<[[f32; 4]; COLUMNS]>>,
 }
 
 impl CellDetail {
