@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use reference::device::{open, render, shared};
+use reference::device::{open, prepare, render, shared};
 use reference::guarantee::{ROUNDING, calm, case, prepare_anyway};
 use reference::scenes::{self, Scene, grey};
 use renderer::{
@@ -162,7 +162,7 @@ fn a_bundle_in_several_tiles_behind_each_other_is_put_together() {
 #[test]
 fn looking_at_cells_costs_the_next_picture_nothing() {
     let mut renderer = shared();
-    let prepared = prepare_anyway(&calm(25, 57, 43));
+    let prepared = prepare(&calm(25, 57, 43));
     let first = render(&mut renderer, &prepared);
     let (second, map) = map_of(&mut renderer, &prepared);
     detail(&mut renderer, &prepared, [2, 1]);
@@ -176,14 +176,14 @@ fn looking_at_cells_costs_the_next_picture_nothing() {
     assert_eq!((changed.stats.milliseconds.grid, changed.stats.evaluations.bounds), (0.0, 0));
     assert_ne!(map, changed_map);
     // A grid that was looked at meanwhile is another one.
-    renderer.inspect_grid(&prepare_anyway(&calm(26, 57, 43))).unwrap();
+    renderer.inspect_grid(&prepare(&calm(26, 57, 43))).unwrap();
     assert!(map_of(&mut renderer, &other).1 == changed_map);
 }
 
 #[test]
 fn a_cancelled_map_leaves_no_trace() {
     let mut renderer = shared();
-    let prepared = prepare_anyway(&calm(27, 57, 43));
+    let prepared = prepare(&calm(27, 57, 43));
     let cancelled = renderer.render_with_cells(&prepared, &mut |_| ControlFlow::Break(()));
     assert!(matches!(cancelled, Err(RenderError::Cancelled)), "{:?}", cancelled.err());
     let (picture, map) = map_of(&mut renderer, &prepared);
@@ -279,14 +279,4 @@ fn a_full_picture_charges_nothing() {
         }),
         [4; 16]
     );
-}
-
-#[test]
-fn the_bound_of_the_paper_has_no_bricks() {
-    let mut scene = calm(20, 57, 43);
-    scene.view.sampling.bound = Bound::Paper;
-    let prepared = prepare_anyway(&scene);
-    render(&mut shared(), &prepared);
-    let detail = detail(&mut shared(), &prepared, [3, 2]);
-    assert!(!detail.cells.is_empty() && detail.cells.iter().all(|cell| cell.bricks.is_none()));
 }

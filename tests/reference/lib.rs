@@ -19,7 +19,8 @@
 //!
 //! Besides the twin: [`compare`] tells two pictures apart, [`margins`] says how near a ray comes to a
 //! jump of the picture, [`scenes`] makes random scenes from a seed ([`random`]) and [`extremes`] those at
-//! the end of what makes sense, [`device`] renders them on the machine's adapter, and [`guarantee`] tries whether adaptive sampling keeps its tolerance.
+//! the end of what makes sense, [`device`] renders them on the machine's adapter, and [`guarantee`]
+//! tries whether adaptive sampling keeps its tolerance.
 
 pub mod bricks;
 pub mod camera;

@@ -2,6 +2,8 @@
 
 mod bundle;
 mod frame;
+#[cfg(test)]
+mod range_tests;
 mod store;
 mod transfer;
 
