@@ -75,10 +75,7 @@ const MUTANTS: [Mutant; 16] = [
     },
     Mutant {
         what: "level 2 is sampled at the front of a brick",
-        edits: &[
-            ("layer == LEVEL_2);", "false);"),
-            ("add_samples(frame.coarse_offset,", "add_samples(at[0],"),
-        ],
+        edits: &[("layer == LEVEL_2);", "false);"), ("add_samples(level_2_offsets(),", "add_samples(at[0],")],
     },
     Mutant {
         what: "columns end early, free of charge",

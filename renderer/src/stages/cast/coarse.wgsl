@@ -10,10 +10,6 @@ struct Samples {
     spans: array<vec4<f32>, 2>,
 }
 
-fn edge_of_slab(edge: u32) -> f32 {
-    return frame.slab_edge[edge / 4u][edge % 4u];
-}
-
 fn samples_of(level: u32) -> Samples {
     let slabs = 1u << level;
     var samples = Samples(16u >> level, array(vec4(0.0), vec4(0.0)), array(vec4(0.0), vec4(0.0)));

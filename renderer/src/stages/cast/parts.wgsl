@@ -28,7 +28,7 @@ fn unit_of(number: u32, units: u32) -> Unit {
     let ray = 4u * (brick % COLUMNS) + number % 4u;
     let count = select(0u, 1u, number < units);
     let layer = brick / COLUMNS;
-    let depths = select(frame.sample_offset[min(layer, 3u)], frame.coarse_offset, layer == LEVEL_2);
+    let depths = select(frame.sample_offset[min(layer, 3u)], level_2_offsets(), layer == LEVEL_2);
     return Unit(count, ray, layer, ray_from_axis(ray), depths, vec4(0.0), vec4(0.0));
 }
 

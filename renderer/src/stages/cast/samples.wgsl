@@ -131,7 +131,7 @@ fn cast_cell(
             if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, charge, &w2, &q2); }
             if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, charge, &w3, &q3); }
             if SOME_SHOWN && sampled > 15u {
-                count += add_samples(frame.coarse_offset, arc, charge, &w_coarse, &q_coarse);
+                count += add_samples(level_2_offsets(), arc, charge, &w_coarse, &q_coarse);
             }
         }
         workgroupBarrier();

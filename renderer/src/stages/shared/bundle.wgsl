@@ -93,6 +93,17 @@ fn particle_in_cell(reference: u32, middle: vec3<f32>, depth: f32, quantity_refe
     return Particle(place, weights[particle], quantity - quantity_reference);
 }
 
+// Depth of the front of a slab, or of the end of the last one, relative to the cell's middle.
+fn edge_of_slab(edge: u32) -> f32 {
+    return frame.slab_edge[edge / 4u][edge % 4u];
+}
+
+// Depths of a cell's samples of level 2: each in the middle of four slabs.
+fn level_2_offsets() -> vec4<f32> {
+    let edges = frame.slab_edge;
+    return vec4(edges[0].z, edges[1].z, edges[2].z, edges[3].z);
+}
+
 // Lanes follow a Morton curve, so that those that run in step, be it 8, 16, 32 or 64, make a compact
 // block of pixels and mostly meet the same particles. (Picture::place undoes this.)
 fn place_in_bundle(lane: u32) -> vec2<u32> {

@@ -35,7 +35,6 @@ pub(crate) struct FrameUniform {
     pub far_offset: f32,
     pub padding: f32,
     pub sample_offset: [f32; CELL_SLICES as usize],
-    pub coarse_offset: [f32; 4],
     pub slab_depth: [f32; CELL_SLICES as usize],
     pub slab_edge: [f32; CELL_SLICES as usize + 4],
 }
@@ -73,9 +72,6 @@ impl FrameUniform {
             far_offset: ((camera.far - pivot_depth) / unit) as f32,
             padding: 0.0,
             sample_offset: std::array::from_fn(|k| (from_middle(k as f64 + 0.5) * step).exp_m1() as f32),
-            coarse_offset: std::array::from_fn(|k| {
-                (from_middle(4.0 * k as f64 + 2.0) * step).exp_m1() as f32
-            }),
             slab_depth: std::array::from_fn(|k| {
                 ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
             }),
@@ -161,7 +157,6 @@ mod tests {
             far_offset,
             padding,
             sample_offset,
-            coarse_offset,
             slab_depth,
             slab_edge
         );

@@ -28,8 +28,6 @@ struct Frame {
     padding: f32,
     // Depth of the cell's 16 samples relative to its middle, in units of the middle's depth.
     sample_offset: array<vec4<f32>, 4>,
-    // Depth of its four samples of level 2, in the same way.
-    coarse_offset: vec4<f32>,
     // Depth of the cell's 16 slabs, in units of the depth of the cell's middle.
     slab_depth: array<vec4<f32>, 4>,
     // Depth of the 17 edges of these slabs, and of three more behind, relative to the middle like the

@@ -25,10 +25,6 @@ struct Found {
 
 var<workgroup> found: array<Found, LANES>;
 
-fn edge_of_slab(edge: u32) -> f32 {
-    return frame.slab_edge[edge / 4u][edge % 4u];
-}
-
 // A column's axis: where it crosses the middle of the cell, and its direction per unit of depth.
 struct Axis {
     from_axis: vec2<f32>,
