@@ -30,10 +30,9 @@ fn cast_coarsely(layer: u32, first: u32, end: u32, samples: Samples, slope: vec2
     let direction = vec3(slope + from_axis, 1.0);
     let direction_squared = dot(direction, direction);
     let reference = reference_of(first);
-    let quads = (samples.count + 3u) / 4u;
     var w0 = vec4(0.0); var w1 = vec4(0.0);
     var q0 = vec4(0.0); var q1 = vec4(0.0);
-    var done = 0u;
+    var count = vec2(0u);
     for (var base = first; base < end; base += LANES) {
         if base + lane < end {
             load_particle(base + lane, lane, middle, depths.x, reference);
@@ -45,22 +44,13 @@ fn cast_coarsely(layer: u32, first: u32, end: u32, samples: Samples, slope: vec2
             if arc.top <= 0.0 {
                 continue;
             }
-            if meets(samples.depths[0], arc) {
-                let k = kernel_on(samples.depths[0], arc);
-                w0 += loads[i].x * k;
-                q0 += loads[i].y * k;
-                done += min(samples.count, 4u);
-            }
-            if quads > 1u && meets(samples.depths[1], arc) {
-                let k = kernel_on(samples.depths[1], arc);
-                w1 += loads[i].x * k;
-                q1 += loads[i].y * k;
-                done += 4u;
-            }
+            count += add_samples(samples.depths[0], arc, loads[i], &w0, &q0);
+            if samples.count > 4u { count += add_samples(samples.depths[1], arc, loads[i], &w1, &q1); }
         }
         workgroupBarrier();
     }
-    add_to_tally(0u, done);
+    // Of fewer than four samples, the last is repeated.
+    add_to_tally(0u, count.x / 4u * min(samples.count, 4u));
     let scale = depths.x * sqrt(direction_squared) * frame.path_scale;
     let near = composite_four(vec4(0.0), w0, q0, reference, samples.spans[0] * scale);
     return composite_four(near, w1, q1, reference, samples.spans[1] * scale);
