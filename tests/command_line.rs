@@ -61,6 +61,17 @@ fn sphcast(folder: &Path, arguments: &[&str]) -> Outcome {
     }
 }
 
+#[test]
+fn a_reader_who_leaves_is_no_error() {
+    let folder = folder();
+    let mut command = Command::new(program());
+    command.args(["info", "one.vtk"]).current_dir(&folder).env("XDG_RUNTIME_DIR", folder.path());
+    let mut reading = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(reading.stdout.take());
+    let output = reading.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
 /// A folder with `run/frame_1.vtk` to `_3`, the second of them cut short, and `one.vtk`.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 
+use super::say::say;
 use super::view::unit;
 use crate::difference::{Difference, difference};
 use crate::image_file;
@@ -44,9 +45,12 @@ pub fn run(arguments: &CompareArguments) -> anyhow::Result<()> {
         );
     }
     let Difference { max, place: [x, y], mean, above } = difference(&a, &b, arguments.tolerance);
-    println!("max   {max:.6} at pixel ({x}, {y})");
-    println!("mean  {mean:.6}");
-    println!("above {:.4} % of the pixels differ by more than {}", 100.0 * above, arguments.tolerance);
+    let (percent, tolerance) = (100.0 * above, arguments.tolerance);
+    say(format_args!(
+        "max   {max:.6} at pixel ({x}, {y})\n\
+         mean  {mean:.6}\n\
+         above {percent:.4} % of the pixels differ by more than {tolerance}\n"
+    ))?;
     match arguments.fail_above {
         Some(limit) if max > limit => {
             bail!("{}: differs by {max:.6}, more than {limit}", arguments.a.display())

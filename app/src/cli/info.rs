@@ -4,6 +4,7 @@ use anyhow::{Context, bail};
 use serde::Serialize;
 
 use super::SequenceArguments;
+use super::say::say;
 use crate::frames::{Column, Frame, median_spacing};
 use crate::scene::{Selection, Support};
 
@@ -76,7 +77,7 @@ pub fn run(arguments: &InfoArguments) -> anyhow::Result<()> {
                 let info = Info::new(&source.name, &frame);
                 match arguments.json {
                     true => infos.push(info),
-                    false => print!("{info}"),
+                    false => say(info)?,
                 }
             }
             Err(error) if !several => return Err(error),
@@ -88,8 +89,8 @@ pub fn run(arguments: &InfoArguments) -> anyhow::Result<()> {
     }
     match infos.as_slice() {
         _ if !arguments.json => {}
-        [only] if !several => println!("{}", serde_json::to_string_pretty(only)?),
-        all => println!("{}", serde_json::to_string_pretty(all)?),
+        [only] if !several => say(serde_json::to_string_pretty(only)? + "\n")?,
+        all => say(serde_json::to_string_pretty(all)? + "\n")?,
     }
     match failed.as_slice() {
         [] => Ok(()),

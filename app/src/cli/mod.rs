@@ -7,6 +7,7 @@ mod info;
 mod interrupt;
 mod output;
 mod render;
+mod say;
 mod survey;
 mod timed;
 mod view;

@@ -25,6 +25,7 @@ use renderer::Renderer;
 use super::film::Film;
 use super::interrupt::Interrupt;
 use super::output::Output;
+use super::say::say;
 use super::view::{Tolerance, tolerance};
 use super::{DeviceArguments, SequenceArguments, ShownArguments};
 use measure::Measurement;
@@ -92,7 +93,7 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let result = film.each(|film, index| measurement.frame(film, index));
     // Whatever ended the measurement, what it has found so far is worth having.
     if let Some(report) = Report::new(name, &measurement, &film) {
-        tell(&report);
+        tell(&report)?;
         if let Some(folder) = &arguments.out {
             report.write(folder)?;
         }
@@ -104,8 +105,8 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
 }
 
 /// The tables, and on standard error what a reader of them must not miss.
-fn tell(report: &Report) {
-    print!("{}", text::tables(report));
+fn tell(report: &Report) -> anyhow::Result<()> {
+    say(text::tables(report))?;
     if !report.complete {
         let (measured, all) = (report.frames, report.frames_asked);
         let what = "frames are in the tables, the last perhaps with fewer rounds";
@@ -116,4 +117,5 @@ fn tell(report: &Report) {
         let above = summary.error.frames_above.unwrap_or(0);
         eprintln!("warning: {setting}: the error is above the tolerance in {above} of {frames} frames");
     }
+    Ok(())
 }
