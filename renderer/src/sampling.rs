@@ -38,7 +38,7 @@ pub struct Sampling {
     /// sampling.
     pub tolerance: Option<f32>,
     pub bound: Bound,
-    /// E_relax in [0, 1]: the share of a brick's lateral width that is not charged where it is sampled more
+    /// E_relax in [0, 1]: the share of the hull's width that is not charged where a brick is sampled more
     /// coarsely along the ray (HPG 2016, Sec. 5). 0 is a guarantee.
     pub relaxation: f32,
     /// Bricks may be sampled once a ray for their four slices; by the paper's bound, cells at levels 1 to 4.

@@ -16,7 +16,6 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     let in_bundle = vec2<f32>(place_in_bundle(lane));
     let axis = ray_slope(frame, corner + 3.5);
     let from_axis = ray_from_axis(lane);
-    let slope = axis + from_axis;
 
     let pixel = index * LANES + lane;
     let in_picture = all(corner + in_bundle < vec2<f32>(frame.size));
@@ -29,7 +28,7 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     for (var layer = 0u; layer < tile.layers; layer += 1u) {
         let end = cells[index * tile.layers + layer];
         if end > first && end <= tile.pair_capacity {
-            let cell = cast_cell(layer, first, end, axis, slope, from_axis, 15u, lane);
+            let cell = cast_cell(layer, first, end, axis, from_axis, ALL_BRICKS, lane);
             ray.colour += ray.transparency * cell.rgb;
             ray.transparency *= 1.0 - cell.a;
             if lane == 0u {

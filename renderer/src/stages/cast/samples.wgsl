@@ -82,41 +82,38 @@ fn composite_four(
     return composite(result, weights.w, quantities.w, reference, paths.w);
 }
 
-// Colour and opacity of a ray's stretch through one cell.
-//
-// `slope` is the ray's, `from_axis` its distance in slope from the bundle's axis; `sampled` are bits of
-// its four bricks that are sampled at every slice, and from bit 4 on of those sampled at level 2.
-fn cast_cell(
-    layer: u32,
-    first: u32,
-    end: u32,
-    axis: vec2<f32>,
-    slope: vec2<f32>,
-    from_axis: vec2<f32>,
-    sampled: u32,
-    lane: u32,
-) -> vec4<f32> {
+// All four bricks of a ray, sampled at every slice.
+const ALL_BRICKS: u32 = 15u;
+
+// Sums over particles at a ray's samples in a cell: of weights, and of weights times quantity. Vectors
+// rather than arrays: an indexed array would live in memory.
+struct Sums {
+    w0: vec4<f32>, w1: vec4<f32>, w2: vec4<f32>, w3: vec4<f32>,
+    q0: vec4<f32>, q1: vec4<f32>, q2: vec4<f32>, q3: vec4<f32>,
+    // At the four samples of level 2.
+    w_coarse: vec4<f32>,
+    q_coarse: vec4<f32>,
+}
+
+// Sums over the references from `first` to `end` of a cell of `layer`. `axis`: slope of the bundle's;
+// `from_axis`: distance in slope of the ray from it. `sampled`: bits of the ray's four bricks that are
+// sampled at every slice, and from bit 4 on of those sampled at level 2.
+fn sum_particles(
+    layer: u32, first: u32, end: u32, reference: f32, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
+) -> Sums {
     let depths = layer_depth[tile.first_layer + layer];
-    let depth = depths.x;
-    let middle = vec3(depth * axis, depths.y);
-    let direction = vec3(slope, 1.0);
+    let middle = vec3(depths.x * axis, depths.y);
+    let direction = vec3(axis + from_axis, 1.0);
     let direction_squared = dot(direction, direction);
-    let reference = reference_of(first);
-    // Sums over particles at the ray's 16 samples. Four vectors rather than an array: an indexed
-    // array would live in memory.
+    let at = frame.sample_offset;
     var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
     var q0 = vec4(0.0); var q1 = vec4(0.0); var q2 = vec4(0.0); var q3 = vec4(0.0);
-    // At its four samples of level 2.
     var w_coarse = vec4(0.0); var q_coarse = vec4(0.0);
-    let at = frame.sample_offset;
     // Evaluations done, and those with a weight above zero.
     var count = vec2(0u);
-
-    let crowd = portions_of(first, end);
-    let walk_end = select(end, first, crowd.x < crowd.y);
-    for (var base = first; base < walk_end; base += LANES) {
+    for (var base = first; base < end; base += LANES) {
         if base + lane < end {
-            load_particle(base + lane, lane, middle, depth, reference);
+            load_particle(base + lane, lane, middle, depths.x, reference);
         }
         workgroupBarrier();
         let loaded = min(LANES, end - base);
@@ -130,7 +127,7 @@ fn cast_cell(
             if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, charge, &w1, &q1); }
             if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, charge, &w2, &q2); }
             if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, charge, &w3, &q3); }
-            if SOME_SHOWN && sampled > 15u {
+            if SOME_SHOWN && sampled > ALL_BRICKS {
                 count += add_samples(level_2_offsets(), arc, charge, &w_coarse, &q_coarse);
             }
         }
@@ -138,20 +135,33 @@ fn cast_cell(
     }
     add_to_tally(0u, count.x);
     if COUNT_INSIDE { add_to_tally(2u, count.y); }
+    return Sums(w0, w1, w2, w3, q0, q1, q2, q3, w_coarse, q_coarse);
+}
+
+// Colour and opacity of a ray's stretch through one cell, from its particles or, where it is crowded, from
+// the sums of its portions. The arguments are those of `sum_particles`.
+fn cast_cell(
+    layer: u32, first: u32, end: u32, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
+) -> vec4<f32> {
+    let reference = reference_of(first);
+    let crowd = portions_of(first, end);
+    let walk_end = select(end, first, crowd.x < crowd.y);
+    var sums = sum_particles(layer, first, walk_end, reference, axis, from_axis, sampled, lane);
     for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
-        let sums = portion_sums[portion * LANES + lane];
-        w0 += sums[0]; w1 += sums[1]; w2 += sums[2]; w3 += sums[3];
-        q0 += sums[4]; q1 += sums[5]; q2 += sums[6]; q3 += sums[7];
+        let more = portion_sums[portion * LANES + lane];
+        sums.w0 += more[0]; sums.w1 += more[1]; sums.w2 += more[2]; sums.w3 += more[3];
+        sums.q0 += more[4]; sums.q1 += more[5]; sums.q2 += more[6]; sums.q3 += more[7];
     }
 
     let path = frame.slab_depth;
-    let scale = depth * sqrt(direction_squared) * frame.path_scale;
-    let coarse = Coarse(w_coarse, q_coarse, sampled >> 4u);
+    let depth = layer_depth[tile.first_layer + layer].x;
+    let scale = depth * length(vec3(axis + from_axis, 1.0)) * frame.path_scale;
+    let coarse = Coarse(sums.w_coarse, sums.q_coarse, sampled >> 4u);
     var cell = vec4(0.0);
-    cell = pass_brick(cell, 0u, w0, q0, reference, path[0] * scale, sampled, coarse, lane);
-    cell = pass_brick(cell, 1u, w1, q1, reference, path[1] * scale, sampled, coarse, lane);
-    cell = pass_brick(cell, 2u, w2, q2, reference, path[2] * scale, sampled, coarse, lane);
-    return pass_brick(cell, 3u, w3, q3, reference, path[3] * scale, sampled, coarse, lane);
+    cell = pass_brick(cell, 0u, sums.w0, sums.q0, reference, path[0] * scale, sampled, coarse, lane);
+    cell = pass_brick(cell, 1u, sums.w1, sums.q1, reference, path[1] * scale, sampled, coarse, lane);
+    cell = pass_brick(cell, 2u, sums.w2, sums.q2, reference, path[2] * scale, sampled, coarse, lane);
+    return pass_brick(cell, 3u, sums.w3, sums.q3, reference, path[3] * scale, sampled, coarse, lane);
 }
 
 // Adds a particle to the sums at four samples; returns how many evaluations that took, and how many of

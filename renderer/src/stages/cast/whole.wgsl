@@ -18,9 +18,8 @@ fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     }
     workgroupBarrier();
     let from_axis = ray_from_axis(lane);
-    let slope = axis + from_axis;
     segments[task.y * LANES + lane] =
-        cast_cell(cell % tile.layers, first_of_cell(cell), cells[cell], axis, slope, from_axis, sampled, lane);
+        cast_cell(cell % tile.layers, first_of_cell(cell), cells[cell], axis, from_axis, sampled, lane);
     workgroupBarrier();
     if lane == 0u {
         settle_tally(0u, EVALUATIONS);
