@@ -16,11 +16,11 @@ struct Mutant {
 const MUTANTS: [Mutant; 16] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
-        edits: &[("0.5 * reach * reach * jet.curvature + 1e-6 * jet.bend", "vec4(0.0)")],
+        edits: &[("span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend", "vec4(0.0)")],
     },
     Mutant {
         what: "the gradient of the sums is dropped",
-        edits: &[("column.half_width * (abs(gradient_x) + abs(gradient_y))", "vec4(0.0)")],
+        edits: &[("column.half_width * (abs(f.a) + abs(f.b))", "vec4(0.0)")],
     },
     Mutant {
         what: "a brick is half as wide as it is",

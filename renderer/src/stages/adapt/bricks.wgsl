@@ -2,12 +2,15 @@
 // from front to back.
 //
 // In a brick with middle c, let N(x) = Σ (q_j − λ) w_j(x). Taylor's theorem gives
-//   N(c + δ) ≤ N(c) + ∇N(c)·δ + ½ |δ|² Σ |q_j − λ| max|w_j''|,
-// where the first two terms are sums in which neighbours cancel. Q ≤ λ wherever N ≤ 0. The last sum
-// is at most √(Σ m_j · Σ (q_j − λ)² m_j), m_j = max|w_j''| (Cauchy and Schwarz): a parabola in λ from
+//   N(c + δ) ≤ N(c) + ∇N(c)·δ + ½ δ·H(c)δ + ⅙ |δ|³ Σ |q_j − λ| max|w_j'''|, H = N'',
+// where all but the last term are sums in which neighbours cancel. Q ≤ λ wherever N ≤ 0. The last sum
+// is at most √(Σ m_j · Σ (q_j − λ)² m_j), m_j = max|w_j'''| (Cauchy and Schwarz): a parabola in λ from
 // three sums. So one pass over the particles bounds Q from both sides, more tightly than intervals of
-// the weights (their error falls with the brick's width, this one's with its square), and the lower
-// bound of Σ w_j proves coverage.
+// the weights (their error falls with the brick's width, this one's with its cube), and the lower bound
+// of Σ w_j proves coverage.
+//
+// Where samples lie in a brick, δ = a·x̂ + b·ŷ + s·(direction of the column): derivatives are taken with
+// respect to a, b and s.
 
 // Parts that are left out where somebody measures what they are worth.
 override EXTREMES_ONLY: bool = false;
@@ -41,20 +44,24 @@ fn column_at(column: u32, axis: vec2<f32>) -> Column {
 
 const SLACK: f32 = 1.0001;
 
-// Sums over particles: of w, of −w'/r, and of −w'/r times the particle's place relative to the
-// column's axis in the cell: across, and along the column.
-struct Sums {
+// A function of a, b and s up to its second derivatives, in the middles of the four bricks.
+struct Taylor {
     value: vec4<f32>,
-    bend: vec4<f32>,
-    bend_x: vec4<f32>,
-    bend_y: vec4<f32>,
-    bend_along: vec4<f32>,
+    a: vec4<f32>,
+    b: vec4<f32>,
+    s: vec4<f32>,
+    aa: vec4<f32>,
+    bb: vec4<f32>,
+    ss: vec4<f32>,
+    ab: vec4<f32>,
+    sa: vec4<f32>,
+    sb: vec4<f32>,
 }
 
 struct Expansion {
-    // With the weights alone, and times the quantity.
-    weight: Sums,
-    charge: Sums,
+    // Σ w and Σ q·w.
+    weight: Taylor,
+    charge: Taylor,
     // Σ of the least weights that the particles have anywhere in a brick.
     least: vec4<f32>,
     // Σ m, Σ q·m, Σ q²·m, where m bounds what the expansion of a particle leaves out.
@@ -66,46 +73,68 @@ struct Expansion {
     high: vec4<f32>,
 }
 
-fn no_sums() -> Sums {
-    return Sums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+fn no_taylor() -> Taylor {
+    let none = vec4(0.0);
+    return Taylor(none, none, none, none, none, none, none, none, none, none);
 }
 
 fn no_expansion() -> Expansion {
     let none = vec4(0.0);
-    return Expansion(no_sums(), no_sums(), none, none, none, none, vec4(FAR), vec4(-FAR));
+    return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR));
 }
 
 const FAR: f32 = 1e30;
 
-// A kernel at distances ρ (in radii): its value, −W'/ρ, and an upper bound of the norm of its second
-// derivative at ρ_near and beyond. All kernels here have a second derivative, at the edge too.
+// A kernel W at distances ρ, in radii. Its second derivatives at p, |p| = ρ, are −bend·1 + stretch·p pᵀ:
+// bend = −W'/ρ, stretch = (W'' + bend)/ρ². All kernels here have them, at the edge too.
 struct Jet {
     value: vec4<f32>,
     bend: vec4<f32>,
-    curvature: vec4<f32>,
+    stretch: vec4<f32>,
 }
 
-fn kernel_jet(rho: vec4<f32>, rho_near: vec4<f32>) -> Jet {
+fn kernel_jet(rho: vec4<f32>) -> Jet {
     let inside = max(1.0 - rho, vec4(0.0));
-    let near = max(1.0 - rho_near, vec4(0.0));
     if KERNEL == 0u {
         let x = inside * (1.0 + rho);
-        let s = rho_near * rho_near;
-        let y = near * (1.0 + rho_near);
-        let radial = select(6.0 * y * (5.0 * s - 1.0), vec4(4.8), s < vec4(0.6));
-        return Jet(x * x * x, 6.0 * x * x, max(6.0 * y * y, radial));
+        return Jet(x * x * x, 6.0 * x * x, 24.0 * x);
     }
+    // Where W'' has a cusp, p pᵀ outweighs what is infinite.
+    let safe = max(rho, vec4(1e-6));
+    let square = inside * inside;
     if KERNEL == 1u {
         let inner = rho <= vec4(0.5);
         return Jet(
-            select(2.0 * inside * inside * inside, 1.0 - 6.0 * rho * rho * inside, inner),
-            select(6.0 * inside * inside / max(rho, vec4(0.5)), 12.0 - 18.0 * rho, inner),
-            select(12.0 * near, max(12.0 - 18.0 * rho_near, vec4(6.0)), rho_near <= vec4(0.5)),
+            select(2.0 * inside * square, 1.0 - 6.0 * rho * rho * inside, inner),
+            select(6.0 * square / safe, 12.0 - 18.0 * rho, inner),
+            select(6.0 * inside * (1.0 + rho) / (safe * safe), vec4(18.0), inner) / safe,
         );
     }
-    let cube = inside * inside * inside;
-    let radial = select(20.0 * near * near * (4.0 * rho_near - 1.0), vec4(5.0), rho_near < vec4(0.5));
-    return Jet(inside * cube * (1.0 + 4.0 * rho), 20.0 * cube, max(20.0 * near * near * near, radial));
+    return Jet(square * square * (1.0 + 4.0 * rho), 20.0 * square * inside, 60.0 * square / safe);
+}
+
+// Upper bound of the third derivative of a kernel in any direction, at distances from `near` to `far`.
+//
+// With c = cos of the angle to p it is W'''c³ + 3(W'' + bend)/ρ·(c − c³), and c − c³ ≤ 0.385.
+fn kernel_third(near: vec4<f32>, far: vec4<f32>) -> vec4<f32> {
+    let inside = max(1.0 - near, vec4(0.0));
+    let last = min(far, vec4(1.0));
+    if KERNEL == 0u {
+        // 72xu − 48u³, u = ρc: one extremum at u² = x/2, at most 21.5 for u ≤ ρ; the other at u = ρ.
+        let x = inside * (1.0 + near);
+        let inner = min(min(vec4(21.5), 72.0 * last), 33.95 * x * sqrt(x));
+        return max(inner, last * (120.0 * last * last - 72.0));
+    }
+    if KERNEL == 1u {
+        // 54c − 18c³ in the inner half; 18(1/ρ² − 1)(c − c³) − 12c³ in the outer one.
+        let square = max(near * near, vec4(0.25));
+        let outer = max(vec4(12.0), 6.93 * (1.0 / square - 1.0));
+        return select(select(outer, vec4(36.0), near < vec4(0.5)), vec4(0.0), near >= vec4(1.0));
+    }
+    // 180(1 − ρ)²c − 60(1 − ρ²)c³: least at c = 1, where it is 120(1 − ρ)(1 − 2ρ), and that at ρ = ¾.
+    let falling = 120.0 * inside * inside * sqrt(inside / (1.0 + near));
+    let turn = clamp(vec4(0.75), near, max(near, last));
+    return max(falling, 120.0 * (1.0 - turn) * (2.0 * turn - 1.0));
 }
 
 // The kernel's value at distances ρ.
@@ -114,14 +143,41 @@ fn kernel_at(rho: vec4<f32>) -> vec4<f32> {
     return kernel(inside * (1.0 + rho));
 }
 
-fn plus(sums: Sums, factor: f32, value: vec4<f32>, bend: vec4<f32>, place: vec3<f32>) -> Sums {
-    let b = factor * bend;
-    return Sums(
-        sums.value + factor * value,
-        sums.bend + b,
-        sums.bend_x + b * place.x,
-        sums.bend_y + b * place.y,
-        sums.bend_along + b * place.z,
+fn plus(sum: Taylor, factor: f32, term: Taylor) -> Taylor {
+    return Taylor(
+        sum.value + factor * term.value,
+        sum.a + factor * term.a,
+        sum.b + factor * term.b,
+        sum.s + factor * term.s,
+        sum.aa + factor * term.aa,
+        sum.bb + factor * term.bb,
+        sum.ss + factor * term.ss,
+        sum.ab + factor * term.ab,
+        sum.sa + factor * term.sa,
+        sum.sb + factor * term.sb,
+    );
+}
+
+// A kernel of radius h around the middles of bricks: (x, y, z) is the way from there to the particle.
+fn taylor_of(
+    jet: Jet, inverse_square: f32, x: vec4<f32>, y: vec4<f32>, z: vec4<f32>, direction: vec3<f32>,
+) -> Taylor {
+    let bend = inverse_square * jet.bend;
+    let stretch = inverse_square * inverse_square * jet.stretch;
+    let along = x * direction.x + y * direction.y + z;
+    let by_x = stretch * x;
+    let by_y = stretch * y;
+    return Taylor(
+        jet.value,
+        bend * x,
+        bend * y,
+        bend * along,
+        by_x * x - bend,
+        by_y * y - bend,
+        stretch * along * along - dot(direction, direction) * bend,
+        by_x * y,
+        by_x * along - direction.x * bend,
+        by_y * along - direction.y * bend,
     );
 }
 
@@ -138,14 +194,17 @@ fn add_particle(
     let rho = sqrt(x * x + y * y + z * z) * inverse_radius;
     let reach = column.reach * inverse_radius;
     let reached = rho < 1.0 + reach + 1e-5;
-    let jet = kernel_jet(rho, max(rho - reach, vec4(0.0)));
-    // The second part stands for the rounding of ρ².
-    let left_out = weight * (0.5 * reach * reach * jet.curvature + 1e-6 * jet.bend);
-    let place = vec3(from_axis.xy, dot(from_axis, column.direction));
-    let bend = ball.w * jet.bend;
-    (*expansion).weight = plus((*expansion).weight, weight, jet.value, bend, place);
-    (*expansion).charge = plus((*expansion).charge, weight * q, jet.value, bend, place);
-    (*expansion).least += weight * kernel_at(rho + reach + 1e-6);
+    let near = max(rho - reach, vec4(0.0));
+    let far = rho + reach;
+    let jet = kernel_jet(rho);
+    let term = taylor_of(jet, ball.w, x, y, z, column.direction);
+    // From without, the kernel begins at the edge of the support. The second part stands for the rounding
+    // of ρ².
+    let span = clamp(1.0 + reach - rho, vec4(0.0), reach);
+    let left_out = weight * (span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend);
+    (*expansion).weight = plus((*expansion).weight, weight, term);
+    (*expansion).charge = plus((*expansion).charge, weight * q, term);
+    (*expansion).least += weight * kernel_at(far + 1e-6);
     (*expansion).rest += left_out;
     (*expansion).rest_q += q * left_out;
     (*expansion).rest_qq += q * q * left_out;
@@ -154,30 +213,42 @@ fn add_particle(
     return u32(dot(select(vec4(0.0), vec4(1.0), reached), vec4(1.0)));
 }
 
-fn less(a: Sums, factor: vec4<f32>, b: Sums) -> Sums {
-    return Sums(
-        a.value - factor * b.value,
-        a.bend - factor * b.bend,
-        a.bend_x - factor * b.bend_x,
-        a.bend_y - factor * b.bend_y,
-        a.bend_along - factor * b.bend_along,
-    );
+// By how much the linear part of a function may exceed its value in the middle.
+fn swing(f: Taylor, column: Column) -> vec4<f32> {
+    return column.half_width * (abs(f.a) + abs(f.b)) + column.half_depth * abs(f.s);
 }
 
-// By how much the linear part of the expansion may exceed its value at the middle.
-fn swing(sums: Sums, column: Column) -> vec4<f32> {
-    let along = dot(column.direction, column.direction);
-    let gradient_x = sums.bend_x - column.depth * column.direction.x * sums.bend;
-    let gradient_y = sums.bend_y - column.depth * column.direction.y * sums.bend;
-    let gradient_along = sums.bend_along - column.depth * along * sums.bend;
-    return column.half_width * (abs(gradient_x) + abs(gradient_y)) + column.half_depth * abs(gradient_along);
+// By how much the quadratic part may exceed zero (side 1), or fall below it (side −1).
+fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
+    let width = column.half_width;
+    let depth = column.half_depth;
+    let across = max(side * f.aa, vec4(0.0)) + max(side * f.bb, vec4(0.0)) + 2.0 * abs(f.ab);
+    let along = max(side * f.ss, vec4(0.0));
+    let oblique = abs(f.sa) + abs(f.sb);
+    return 0.5 * (width * width * across + depth * depth * along) + width * depth * oblique;
+}
+
+fn less(f: Taylor, factor: vec4<f32>, g: Taylor) -> Taylor {
+    return Taylor(
+        f.value - factor * g.value,
+        f.a - factor * g.a,
+        f.b - factor * g.b,
+        f.s - factor * g.s,
+        f.aa - factor * g.aa,
+        f.bb - factor * g.bb,
+        f.ss - factor * g.ss,
+        f.ab - factor * g.ab,
+        f.sa - factor * g.sa,
+        f.sb - factor * g.sb,
+    );
 }
 
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
 fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f32> {
-    let linear = less(e.charge, lambda, e.weight);
+    let relative = less(e.charge, lambda, e.weight);
     let rest = e.rest_qq - lambda * (2.0 * e.rest_q - lambda * e.rest);
-    return side * linear.value + swing(linear, column) + sqrt(max(e.rest * rest, vec4(0.0)));
+    let known = side * relative.value + swing(relative, column) + sag(relative, column, side);
+    return known + sqrt(max(e.rest * rest, vec4(0.0)));
 }
 
 // An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
@@ -193,7 +264,8 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
-    let known = e.weight.value * (1.0 - 1e-5) - swing(e.weight, column) - e.rest;
+    let swayed = swing(e.weight, column) + sag(e.weight, column, -1.0) + e.rest;
+    let known = e.weight.value * (1.0 - 1e-5) - swayed;
     let expanded = select(known, vec4(0.0), EXTREMES_ONLY);
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     let covered = least_weight > 1e-4 * e.weight.value;
