@@ -35,37 +35,6 @@ struct Place {
     column: u32,
 }
 
-// Where a walk over a bundle's filled cells stands.
-struct Walk {
-    layer: u32,
-    first: u32,
-}
-
-fn start_of(index: u32) -> Walk {
-    return Walk(0u, first_of_cell(index * tile.layers));
-}
-
-// The next group of filled cells; the lane's one of them.
-fn next_group(walk: ptr<function, Walk>, place: Place, end_layer: u32) -> Cell {
-    var mine = Cell(false, 0u, 0u, 0u, 0u);
-    var found = 0u;
-    var layer = (*walk).layer;
-    var first = (*walk).first;
-    for (; layer < end_layer && found < GROUP_CELLS; layer += 1u) {
-        let cell = place.index * tile.layers + layer;
-        let end = cells[cell];
-        if end > first && end <= tile.pair_capacity {
-            if found == place.number {
-                mine = Cell(true, cell, layer, first, end);
-            }
-            found += 1u;
-        }
-        first = end;
-    }
-    *walk = Walk(layer, first);
-    return mine;
-}
-
 // Light that comes through to a column: 1 at the eye.
 struct Front {
     light: f32,
@@ -122,9 +91,9 @@ fn make_offers(hull: ColumnHull, cell: Cell, slot: u32, before: f32, place: Plac
 fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front>) -> u32 {
     let slope = column.direction.xy;
     let paths = array(paths_of(0u, slope), paths_of(1u, slope), paths_of(2u, slope), paths_of(3u, slope));
-    var walk = start_of(place.index);
-    while walk.layer < tile.layers {
-        let cell = next_group(&walk, place, tile.layers);
+    var walk = start_walk(tile.layers);
+    while has_group(&walk, place.index, lane) {
+        let cell = next_group(&walk, place.index, place.number);
         var slot = 0u;
         let values = values_in_cell(cell, place.axis, column, lane, &slot);
         let hull = hull_of_column(values, paths, layer_depth[tile.first_layer + cell.layer].x);
@@ -139,20 +108,21 @@ fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front
             atomicAdd(&open_columns, 1u);
         }
         if workgroupUniformLoad(&open_columns) == 0u {
-            break;
+            end_column(front);
+            return layer_after(walk);
         }
     }
     end_column(front);
-    return walk.layer;
+    return tile.layers;
 }
 
 // Takes the offers that the plan of the column affords, and files the cells; returns what the marginal
 // ones cost in all.
 fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
     var taken = 0.0;
-    var walk = start_of(place.index);
-    while walk.layer < end_layer {
-        let cell = next_group(&walk, place, end_layer);
+    var walk = start_walk(end_layer);
+    while has_group(&walk, place.index, lane) {
+        let cell = next_group(&walk, place.index, place.number);
         var mine = Offers(vec4(NONE), vec4(NONE));
         var seen = false;
         let slot = cell_values[cell.cell].slot;

@@ -164,6 +164,7 @@ fn pipeline(gpu: &Gpu, (kernel, without): (u32, Without)) -> Pipeline {
             TRANSFER_WGSL,
             HULL_WGSL,
             include_str!("bricks.wgsl"),
+            include_str!("walk.wgsl"),
             include_str!("values.wgsl"),
             include_str!("offers.wgsl"),
             include_str!("filing.wgsl"),

@@ -2,8 +2,6 @@
 //
 // A workgroup takes four filled cells at a time: lane l has column l mod 16 of cell l/16.
 
-const GROUP_CELLS: u32 = 4u;
-
 // A place for each particle that is loaded: 16 of each cell.
 var<workgroup> balls: array<vec4<f32>, LANES>;
 // Weight, and quantity relative to the cell's reference.
@@ -13,15 +11,6 @@ var<workgroup> cell_low: array<atomic<u32>, GROUP_CELLS>;
 var<workgroup> cell_high: array<atomic<u32>, GROUP_CELLS>;
 var<workgroup> most_particles: atomic<u32>;
 var<workgroup> slots: array<u32, GROUP_CELLS>;
-
-// The lane's cell of a group, where there is one.
-struct Cell {
-    exists: bool,
-    cell: u32,
-    layer: u32,
-    first: u32,
-    end: u32,
-}
 
 // Nothing is known of a crowded cell: it may let all light through, and is sampled as a whole.
 fn is_crowd(cell: Cell) -> bool {

@@ -1,0 +1,83 @@
+// A workgroup's walk over the filled cells of its bundle, from front to back, in groups of four.
+
+const GROUP_CELLS: u32 = 4u;
+
+// Layers of the filled cells among 64 layers, in order; those layers as bits; how many they are.
+var<workgroup> filled: array<u32, LANES>;
+var<workgroup> filled_bits: array<atomic<u32>, 2>;
+var<workgroup> filled_count: u32;
+
+// A filled cell of the bundle, where there is one.
+struct Cell {
+    exists: bool,
+    cell: u32,
+    layer: u32,
+    first: u32,
+    end: u32,
+}
+
+struct Walk {
+    // Layers to be walked through: from here on they are not listed yet, and here they end.
+    layer: u32,
+    end_layer: u32,
+    // The next one of `filled`, and how many are listed.
+    next: u32,
+    count: u32,
+}
+
+fn start_walk(end_layer: u32) -> Walk {
+    return Walk(0u, end_layer, 0u, 0u);
+}
+
+// Lists the filled cells among the next 64 layers: a lane a layer.
+fn list_filled(walk: ptr<function, Walk>, index: u32, lane: u32) {
+    if lane < 2u {
+        atomicStore(&filled_bits[lane], 0u);
+    }
+    workgroupBarrier();
+    let layer = (*walk).layer + lane;
+    let cell = index * tile.layers + min(layer, tile.layers - 1u);
+    let end = cells[cell];
+    let is_filled = layer < (*walk).end_layer && end > first_of_cell(cell) && end <= tile.pair_capacity;
+    let bit = 1u << (lane % 32u);
+    if is_filled {
+        atomicOr(&filled_bits[lane / 32u], bit);
+    }
+    workgroupBarrier();
+    let bits = vec2(atomicLoad(&filled_bits[0]), atomicLoad(&filled_bits[1]));
+    let before = select(vec2(bits.x, bits.y & (bit - 1u)), vec2(bits.x & (bit - 1u), 0u), lane < 32u);
+    if is_filled {
+        filled[countOneBits(before.x) + countOneBits(before.y)] = layer;
+    }
+    if lane == 0u {
+        filled_count = countOneBits(bits.x) + countOneBits(bits.y);
+    }
+    (*walk).layer += LANES;
+    (*walk).next = 0u;
+    (*walk).count = workgroupUniformLoad(&filled_count);
+}
+
+// Whether there is another group. All lanes together.
+fn has_group(walk: ptr<function, Walk>, index: u32, lane: u32) -> bool {
+    while (*walk).next >= (*walk).count && (*walk).layer < (*walk).end_layer {
+        list_filled(walk, index, lane);
+    }
+    return (*walk).next < (*walk).count;
+}
+
+// Cell `number` of the next group.
+fn next_group(walk: ptr<function, Walk>, index: u32, number: u32) -> Cell {
+    let place = (*walk).next + number;
+    (*walk).next += GROUP_CELLS;
+    if place >= (*walk).count {
+        return Cell(false, 0u, 0u, 0u, 0u);
+    }
+    let layer = filled[place];
+    let cell = index * tile.layers + layer;
+    return Cell(true, cell, layer, first_of_cell(cell), cells[cell]);
+}
+
+// The layer after the last group.
+fn layer_after(walk: Walk) -> u32 {
+    return filled[min(walk.next, walk.count) - 1u] + 1u;
+}
