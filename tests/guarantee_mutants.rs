@@ -13,7 +13,7 @@ struct Mutant {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Mutant; 16] = [
+const MUTANTS: [Mutant; 19] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
         edits: &[("span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend", "vec4(0.0)")],
@@ -67,10 +67,25 @@ const MUTANTS: [Mutant; 16] = [
     },
     Mutant { what: "half as much again as the budget", edits: &[("chunk.budget", "(1.5 * chunk.budget)")] },
     Mutant {
+        what: "a slope is taken for exact",
+        edits: &[("let all_off = min(off / least_weight + rounding, vec4(2.0))", "let all_off = vec4(0.0)")],
+    },
+    Mutant {
+        what: "a slope falls where it rises",
+        edits: &[(
+            "dot(unpack2x16float(values.across[brick]), side)",
+            "dot(unpack2x16float(values.across[brick]), -side)",
+        )],
+    },
+    Mutant {
+        what: "the transfer function is taken for flat",
+        edits: &[("return steepest * (1.0 + ROUNDING);", "return vec4(0.0);")],
+    },
+    Mutant {
         what: "level 2 is free of charge, however wide the hull",
         edits: &[
-            ("hull.width * (1.0 - chunk.relaxation)", "hull.width * 0.0"),
-            ("hull.width < vec4(chunk.budget)", "hull.width < vec4(2.0)"),
+            ("hull.between * (1.0 - chunk.relaxation)", "hull.between * 0.0"),
+            ("hull.between < vec4(chunk.budget)", "hull.between < vec4(2.0)"),
         ],
     },
     Mutant {

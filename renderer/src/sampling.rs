@@ -38,10 +38,11 @@ pub struct Sampling {
     /// sampling.
     pub tolerance: Option<f32>,
     pub bound: Bound,
-    /// E_relax in [0, 1]: the share of the hull's width that is not charged where a brick is sampled more
+    /// E_relax in [0, 1]: the share that is not charged where a brick follows its slope or is sampled more
     /// coarsely along the ray (HPG 2016, Sec. 5). 0 is a guarantee.
     pub relaxation: f32,
-    /// Bricks may be sampled once a ray for their four slices; by the paper's bound, cells at levels 1 to 4.
+    /// Bricks may follow the slope of the quantity or, where they may not be shown, be sampled once a ray for
+    /// their four slices; by the paper's bound, cells at levels 1 to 4.
     pub z_adaptive: bool,
     /// Bricks, or by the paper's bound cells, may be shown by one colour.
     pub super_pixels: bool,
@@ -65,6 +66,16 @@ pub enum Without {
     Coverage,
     /// Bricks are shown from front to back until the budget is used up.
     Greed,
+    /// Bricks are sampled, or shown by one colour.
+    Slopes,
+}
+
+/// As `bundle.wgsl` numbers them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Between {
+    Nothing = 0,
+    Levels = 1,
+    Slopes = 2,
 }
 
 /// By how much single precision and the early end of rays (transparency 10⁻⁵) may set two pictures
@@ -79,13 +90,17 @@ impl Sampling {
         Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels, without, anyway }
     }
 
-    /// Whether a coarser sampling along rays may cost less than to show one colour, for all that it saves.
-    pub(crate) fn may_coarsen(&self) -> bool {
-        let worthwhile = match self.bound {
-            Bound::Difference => self.relaxation > 0.0 || !self.super_pixels,
-            Bound::Paper => true,
-        };
-        self.z_adaptive && worthwhile
+    /// What there may be between full sampling of a brick or cell and showing it by one colour.
+    pub(crate) fn between(&self) -> Between {
+        match self.bound {
+            _ if !self.z_adaptive => Between::Nothing,
+            Bound::Difference if !self.super_pixels => Between::Levels,
+            Bound::Difference if matches!(self.without, Without::Slopes | Without::Expansion) => {
+                Between::Nothing
+            }
+            Bound::Difference => Between::Slopes,
+            Bound::Paper => Between::Levels,
+        }
     }
 
     /// What the bounds may charge to a ray; `None` where nothing may be adapted.

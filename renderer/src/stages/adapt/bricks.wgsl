@@ -42,8 +42,6 @@ fn column_at(column: u32, axis: vec2<f32>) -> Column {
     return Column(from_axis, direction, 0.5 * (first + last), half_width, half_depth, reach);
 }
 
-const SLACK: f32 = 1.0001;
-
 // A function of a, b and s up to its second derivatives, in the middles of the four bricks.
 struct Taylor {
     value: vec4<f32>,
@@ -82,8 +80,6 @@ fn no_expansion() -> Expansion {
     let none = vec4(0.0);
     return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR));
 }
-
-const FAR: f32 = 1e30;
 
 // A kernel W at distances ρ, in radii. Its second derivatives at p, |p| = ρ, are −bend·1 + stretch·p pᵀ:
 // bend = −W'/ρ, stretch = (W'' + bend)/ρ². All kernels here have them, at the edge too.
@@ -228,6 +224,10 @@ fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
     return 0.5 * (width * width * across + depth * depth * along) + width * depth * oblique;
 }
 
+fn sag_either_way(f: Taylor, column: Column) -> vec4<f32> {
+    return max(sag(f, column, 1.0), sag(f, column, -1.0));
+}
+
 fn less(f: Taylor, factor: vec4<f32>, g: Taylor) -> Taylor {
     return Taylor(
         f.value - factor * g.value,
@@ -246,9 +246,14 @@ fn less(f: Taylor, factor: vec4<f32>, g: Taylor) -> Taylor {
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
 fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f32> {
     let relative = less(e.charge, lambda, e.weight);
-    let rest = e.rest_qq - lambda * (2.0 * e.rest_q - lambda * e.rest);
     let known = side * relative.value + swing(relative, column) + sag(relative, column, side);
-    return known + sqrt(max(e.rest * rest, vec4(0.0)));
+    return known + remainder(e, lambda);
+}
+
+// The upper bound of Σ |q − λ|·m.
+fn remainder(e: Expansion, lambda: vec4<f32>) -> vec4<f32> {
+    let rest_qq = e.rest_qq - lambda * (2.0 * e.rest_q - lambda * e.rest);
+    return sqrt(max(e.rest * rest_qq, vec4(0.0)));
 }
 
 // An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
@@ -261,6 +266,27 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
     let far = above / least_weight;
     let below = min(excess(e, column, mean + side * far, side), vec4(0.0));
     return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
+}
+
+// How the quantity runs through bricks in which Σ w is at least `least_weight`, and how far it is from that:
+// Q − mean = N/Σw, where only ∇N·δ and the Σw of the middle are taken.
+fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column, least_weight: vec4<f32>) {
+    let mean = e.charge.value / e.weight.value;
+    let relative = less(e.charge, mean, e.weight);
+    let right = column.half_width * relative.a / e.weight.value;
+    let up = column.half_width * relative.b / e.weight.value;
+    let back = column.half_depth * relative.s / e.weight.value;
+    let rise = abs(right) + abs(up) + abs(back);
+    let weight_off = swing(e.weight, column) + sag_either_way(e.weight, column) + e.rest;
+    let off = rise * weight_off + sag_either_way(relative, column) + remainder(e, mean);
+    // Half floats have 11 bits.
+    let rounding = 0.001 * rise + 4e-6 * max(abs(e.low), abs(e.high)) + 4e-6;
+    let all_off = min(off / least_weight + rounding, vec4(2.0)) * 1.001;
+    (*values).middle += mean;
+    for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
+        (*values).across[i] = pack2x16float(vec2(right[i], up[i]));
+        (*values).along[i] = pack2x16float(vec2(back[i], all_off[i]));
+    }
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
@@ -281,8 +307,13 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let least = clamp(reference + low - 2e-6, vec4(0.0), vec4(1.0));
     let greatest = clamp(reference + high + 2e-6, vec4(0.0), vec4(1.0));
     let empty = e.low > e.high;
-    return ColumnValues(
+    var values = ColumnValues(
         select(least, vec4(EMPTY.x), empty),
         select(greatest + select(vec4(0.0), vec4(COVERED), covered & vec4(!NO_COVERAGE)), vec4(EMPTY.y), empty),
+        vec4(reference),
+        vec4(0u),
+        vec4(0u),
     );
+    add_slopes(&values, e, column, safe_weight);
+    return values;
 }

@@ -32,6 +32,10 @@ pub(crate) struct BundleEntry {
 pub(crate) struct ColumnValues {
     pub low: [f32; 4],
     pub high: [f32; 4],
+    /// How the quantity runs through them: [`ColumnValues`] of the shader says how.
+    pub middle: [f32; 4],
+    pub across: [u32; 4],
+    pub along: [u32; 4],
 }
 
 /// `Offers` of `offers.wgsl`: costs of the steps by which the bricks of a column are sampled less.
@@ -71,7 +75,7 @@ mod tests {
         let source = [FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL, HULL_WGSL, OFFERS_WGSL].concat();
         check_layout!(&source, "CellEntry", CellEntry, values, slot, class_index, sampled, coarse);
         check_layout!(&source, "BundleEntry", BundleEntry, end_layer, charged);
-        check_layout!(&source, "ColumnValues", ColumnValues, low, high);
+        check_layout!(&source, "ColumnValues", ColumnValues, low, high, middle, across, along);
         check_layout!(&source, "Offers", Offers, first, second);
     }
 }

@@ -16,7 +16,7 @@ struct Work {
 // Bricks and columns that four lanes can sample, each with two units of work.
 const MOST_UNITS: u32 = 32u;
 
-// Bricks of the group's cells to be sampled at every slice, and at level 2: two words each (CellEntry).
+// Bricks of the group's cells to be sampled at every slice, and those between: two words each (CellEntry).
 var<workgroup> sampled_masks: array<atomic<u32>, 8>;
 var<workgroup> coarse_masks: array<atomic<u32>, 8>;
 // Of each cell: SEEN, PAID.
@@ -66,13 +66,15 @@ fn file_cell(cell: u32, number: u32) {
     let coarse = vec2(atomicLoad(&coarse_masks[2u * number]), atomicLoad(&coarse_masks[2u * number + 1u]));
     let flags = atomicLoad(&shown[number]);
     let bricks = countOneBits(fine.x) + countOneBits(fine.y);
-    let units = bricks + countOneBits(columns_in(coarse));
+    // Those that follow a slope take no evaluations.
+    let levels = select(columns_in(coarse), 0u, chunk.between == SLOPES);
+    let units = bricks + countOneBits(levels);
     let class_index = class_of_cell(bricks, units, flags);
     atomicAdd(&counters[class_index], 1u);
     cell_values[cell].class_index = class_index;
     cell_values[cell].sampled = fine;
     cell_values[cell].coarse = coarse;
-    if units == 0u {
+    if units == 0u && all(coarse == vec2(0u)) {
         sampled[cell] = flags & SEEN;
         return;
     }

@@ -81,7 +81,7 @@ fn make_offers(hull: ColumnHull, cell: Cell, slot: u32, before: f32, place: Plac
     if cell.exists && !ended {
         let classes = classes_of(mine, f32(cell.end - cell.first));
         spend_four(place.column, mine.first, classes.first);
-        if chunk.z_adaptive == 1u {
+        if chunk.between != NOTHING_BETWEEN {
             spend_four(place.column, mine.second, classes.second);
         }
     }

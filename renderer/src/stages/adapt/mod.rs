@@ -56,7 +56,7 @@ impl Adapt {
             cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
-            bricks: Buffer::storage(gpu, "values of bricks", 32),
+            bricks: Buffer::storage(gpu, "values of bricks", 80),
             offers: Buffer::storage(gpu, "offers of bricks", 32),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),

@@ -1,15 +1,22 @@
 // What it costs to do less than sample a brick at every slice, and what a column may afford.
 //
-// A brick may be shown by the middle of its hull, at no evaluations, or be sampled once a ray for all
-// its slices (level 2: Sec. 4 of the paper). The latter is charged the full width of the hull, less what
-// relaxation forgives; so it is worth its while only under relaxation, or where nothing may be shown.
-// Where it is, there are two steps: to level 2, which saves most, and on to showing the brick, which
-// saves the rest and costs more for each evaluation. Otherwise there is only one.
+// A brick may be shown by the middle of its hull, at no evaluations. Two things lie between that and its
+// samples: where bricks may be shown, it may follow its slope, at no evaluations either, but with a look at
+// the transfer function for each sample; where they may not, it may be sampled once a ray for all its
+// slices (level 2: Sec. 4 of the paper), charged the full width of the hull. Where that costs less for what
+// it saves, there are two steps: one to there, which saves most, and one on to showing the brick, which
+// saves the rest. Otherwise there is only one.
 
 // No light comes from the brick; there is no such step.
 const NONE: f32 = -1.0;
-// The share of a brick's evaluations that level 2 saves.
+// The share of a brick's work that is saved at level 2, and by a slope.
 const SAVED_AT_LEVEL_2: f32 = 0.75;
+const SAVED_BY_SLOPE: f32 = 0.9;
+
+fn saved_between() -> f32 {
+    return select(SAVED_AT_LEVEL_2, SAVED_BY_SLOPE, chunk.between == SLOPES);
+}
+
 // No budget is as large.
 const UNAFFORDABLE: f32 = 1e6;
 
@@ -30,7 +37,8 @@ struct ColumnHull {
     // Colour and opacity of the middles together.
     shown: vec4<f32>,
     charge: vec4<f32>,
-    width: vec4<f32>,
+    // Of what lies between: the width of the hull, or what the slope is charged.
+    between: vec4<f32>,
     // Transparencies in front of each, if nothing stood before the column.
     front: vec4<f32>,
     open: f32,
@@ -40,11 +48,22 @@ fn behind(shown: vec4<f32>, middle: vec4<f32>) -> vec4<f32> {
     return shown + (1.0 - shown.a) * middle;
 }
 
+// The hull of one brick; where bricks may follow their slopes, that is charged in place of the width.
+fn brick_hull(column: ColumnValues, brick: u32, paths: vec2<f32>) -> Hull {
+    let values = vec2(column.low[brick], column.high[brick]);
+    let shades = shades_over(values);
+    var hull = hull_of(values, shades.range, paths);
+    if chunk.between == SLOPES {
+        hull.width = slope_charge(values, shades, unpack2x16float(column.along[brick]).y, paths.y);
+    }
+    return hull;
+}
+
 fn hull_of_column(values: ColumnValues, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
-    let a = hull_of(vec2(values.low.x, values.high.x), paths[0] * depth);
-    let b = hull_of(vec2(values.low.y, values.high.y), paths[1] * depth);
-    let c = hull_of(vec2(values.low.z, values.high.z), paths[2] * depth);
-    let d = hull_of(vec2(values.low.w, values.high.w), paths[3] * depth);
+    let a = brick_hull(values, 0u, paths[0] * depth);
+    let b = brick_hull(values, 1u, paths[1] * depth);
+    let c = brick_hull(values, 2u, paths[2] * depth);
+    let d = brick_hull(values, 3u, paths[3] * depth);
     return ColumnHull(
         behind(behind(behind(a.middle, b.middle), c.middle), d.middle),
         vec4(a.charge, b.charge, c.charge, d.charge),
@@ -67,15 +86,15 @@ fn offers_of(hull: ColumnHull, before: f32) -> Offers {
     let front = before * hull.front * (1.0 + ROUNDING);
     let free = hull.charge == vec4(0.0);
     let show = select(vec4(UNAFFORDABLE), front * hull.charge, free | vec4(chunk.super_pixels == 1u));
-    if chunk.z_adaptive == 0u {
+    if chunk.between == NOTHING_BETWEEN {
         return Offers(show, vec4(NONE));
     }
     // The bounds hold for whole bricks, so a brick is as wide at level 0 as at level 2.
-    let relaxed = front * hull.width * (1.0 - chunk.relaxation);
+    let relaxed = front * hull.between * (1.0 - chunk.relaxation);
     // Sec. 5 of the paper: no cell is wider than the tolerance by itself, relaxed or not.
-    let coarse = select(vec4(UNAFFORDABLE), relaxed, hull.width < vec4(chunk.budget));
-    let two_steps = coarse < SAVED_AT_LEVEL_2 * show;
-    return Offers(select(show, coarse, two_steps), select(vec4(NONE), show - coarse, two_steps));
+    let between = select(vec4(UNAFFORDABLE), relaxed, hull.between < vec4(chunk.budget));
+    let two_steps = between < saved_between() * show;
+    return Offers(select(show, between, two_steps), select(vec4(NONE), show - between, two_steps));
 }
 
 // Classes of the steps to a brick's offers. By exponent and first bit of the score: no rounding, so both
@@ -87,10 +106,10 @@ struct Classes {
 
 fn classes_of(offers: Offers, particles: f32) -> Classes {
     let two_steps = offers.second >= vec4(0.0);
-    let first_saves = select(vec4(1.0), vec4(SAVED_AT_LEVEL_2), two_steps) * particles;
+    let first_saves = select(vec4(1.0), vec4(saved_between()), two_steps) * particles;
     return Classes(
         class_of(offers.first, first_saves),
-        class_of(offers.second, vec4((1.0 - SAVED_AT_LEVEL_2) * particles)),
+        class_of(offers.second, vec4((1.0 - saved_between()) * particles)),
     );
 }
 

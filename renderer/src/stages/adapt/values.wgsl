@@ -101,7 +101,7 @@ fn values_in_cell(
         slots[number] = atomicAdd(&slots_taken, 1u);
     }
     let most = workgroupUniformLoad(&most_particles);
-    var values = ColumnValues(vec4(EMPTY.x), vec4(EMPTY.y));
+    var values = no_values();
     for (var once = 0u; once < min(most, 1u); once += 1u) {
         let found = expand(cell, entry.values.x, wanted, most, axis, column, lane);
         if wanted {

@@ -96,6 +96,23 @@ fn sample_bricks(
     add_to_tally(0u, done);
 }
 
+// Puts into `strands` what stands for a brick that is not sampled at every slice; what is sampled at
+// level 2 is to follow.
+fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_between: bool) {
+    let middle = middle_of(cell, column, brick_layer, axis);
+    for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
+        strands[4u * ray + brick_layer] = middle;
+    }
+    let rays = select(0u, 4u, is_between && chunk.between == SLOPES);
+    let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
+    for (var ray = 4u * column; ray < 4u * column + rays; ray += 1u) {
+        let scale = depth * length(vec3(axis + ray_from_axis(ray), 1.0)) * frame.path_scale;
+        let quantities = quantities_on_slope(cell, ray, brick_layer);
+        let paths = frame.slab_depth[brick_layer] * scale;
+        strands[4u * ray + brick_layer] = composite_four(vec4(0.0), vec4(1.0), quantities, 0.0, paths);
+    }
+}
+
 // How many chosen bricks have lower bits.
 fn rank_of(mask: vec2<u32>, column: u32, brick_layer: u32) -> u32 {
     let bit = column + 16u * (brick_layer % 2u);
@@ -117,14 +134,11 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let column = lane % COLUMNS;
     let brick_layer = lane / COLUMNS;
     let bricks_to_do = countOneBits(entry.sampled.x) + countOneBits(entry.sampled.y);
-    let columns = columns_in(entry.coarse);
+    let columns = select(columns_in(entry.coarse), 0u, chunk.between == SLOPES);
     if is_chosen(entry.sampled, column, brick_layer) {
         todo[rank_of(entry.sampled, column, brick_layer)] = lane;
-    } else if !is_chosen(entry.coarse, column, brick_layer) {
-        let middle = middle_of(cell, column, brick_layer, axis);
-        for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
-            strands[4u * ray + brick_layer] = middle;
-        }
+    } else {
+        show_brick(cell, column, brick_layer, axis, is_chosen(entry.coarse, column, brick_layer));
     }
     if brick_layer == 0u && (columns >> column & 1u) == 1u {
         let before = countOneBits(columns & ((1u << column) - 1u));
@@ -132,7 +146,9 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     }
     workgroupBarrier();
     let count = bricks_to_do + countOneBits(columns);
-    sample_bricks(cell % tile.layers, first_of_cell(cell), cells[cell], count, entry.coarse, axis, lane);
+    let first = first_of_cell(cell);
+    let end = select(first, cells[cell], count > 0u);
+    sample_bricks(cell % tile.layers, first, end, count, entry.coarse, axis, lane);
     workgroupBarrier();
     var segment = vec4(0.0);
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {

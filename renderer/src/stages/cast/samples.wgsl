@@ -15,6 +15,9 @@ var<workgroup> loads: array<vec2<f32>, LANES>;
 // Colour and opacity of bricks that are shown unsampled, where some are: brick b of column c is 16b + c.
 var<workgroup> middles: array<vec4<f32>, LANES>;
 
+// The quantity at the lane's samples in bricks that follow their slope, where some do.
+var<private> on_slope: array<vec4<f32>, 4>;
+
 // What the quantities of a cell are relative to: some particle's, but never an outlier's, against which
 // the others would vanish.
 fn reference_of(first: u32) -> f32 {
@@ -97,7 +100,7 @@ struct Sums {
 
 // Sums over the references from `first` to `end` of a cell of `layer`. `axis`: slope of the bundle's;
 // `from_axis`: distance in slope of the ray from it. `sampled`: bits of the ray's four bricks that are
-// sampled at every slice, and from bit 4 on of those sampled at level 2.
+// sampled at every slice, and from bit 4 on of those between that and shown (Chunk).
 fn sum_particles(
     layer: u32, first: u32, end: u32, reference: f32, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
 ) -> Sums {
@@ -127,7 +130,7 @@ fn sum_particles(
             if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, charge, &w1, &q1); }
             if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, charge, &w2, &q2); }
             if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, charge, &w3, &q3); }
-            if SOME_SHOWN && sampled > ALL_BRICKS {
+            if SOME_SHOWN && sampled > ALL_BRICKS && chunk.between == LEVELS_BETWEEN {
                 count += add_samples(level_2_offsets(), arc, charge, &w_coarse, &q_coarse);
             }
         }
@@ -182,7 +185,7 @@ fn add_samples(
     return vec2(4u, select(0u, positive(k), COUNT_INSIDE));
 }
 
-// Sums at the samples of level 2, and bits of the bricks for which they stand.
+// Sums at the samples of level 2, and bits of the bricks for which they or their slopes stand.
 struct Coarse {
     weights: vec4<f32>,
     quantities: vec4<f32>,
@@ -193,7 +196,7 @@ fn is_sampled(sampled: u32, brick_layer: u32) -> bool {
     return !SOME_SHOWN || (sampled >> brick_layer & 1u) == 1u;
 }
 
-// One more brick behind the others: its samples, its only sample, or its middle.
+// One more brick behind the others: its samples, those on its slope, its only sample, or its middle.
 fn pass_brick(
     cell: vec4<f32>,
     brick_layer: u32,
@@ -205,10 +208,14 @@ fn pass_brick(
     coarse: Coarse,
     lane: u32,
 ) -> vec4<f32> {
-    if is_sampled(sampled, brick_layer) {
-        return composite_four(cell, weights, quantities, reference, paths);
+    let is_between = (coarse.bricks >> brick_layer & 1u) == 1u;
+    let by_slope = SOME_SHOWN && is_between && chunk.between == SLOPES;
+    if by_slope || is_sampled(sampled, brick_layer) {
+        let w = select(weights, vec4(1.0), by_slope);
+        let q = select(quantities, on_slope[brick_layer] - reference, by_slope);
+        return composite_four(cell, w, q, reference, paths);
     }
-    if (coarse.bricks >> brick_layer & 1u) == 1u {
+    if is_between {
         let weight = coarse.weights[brick_layer];
         return composite(cell, weight, coarse.quantities[brick_layer], reference, dot(paths, vec4(1.0)));
     }

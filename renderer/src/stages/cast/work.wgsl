@@ -13,7 +13,7 @@ struct Work {
 @group(0) @binding(16) var<storage, read> tasks: array<vec2<u32>>;
 @group(0) @binding(17) var<storage, read> cell_values: array<CellEntry>;
 @group(0) @binding(18) var<storage, read> bricks: array<ColumnValues>;
-// Costs of showing or coarsely sampling a column's bricks, negative where no light comes from.
+// Costs of a column's bricks (adapt/offers.wgsl), negative where no light comes from.
 @group(0) @binding(19) var<storage, read> offers: array<array<vec4<f32>, 2>>;
 
 // Whether a brick is in a mask of CellEntry.
@@ -21,11 +21,18 @@ fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
     return (mask[brick_layer / 2u] >> (column + 16u * (brick_layer % 2u)) & 1u) == 1u;
 }
 
+// The quantity at a ray's samples in a brick that follows its slope. `ray`: a lane of the bundle.
+fn quantities_on_slope(cell: u32, ray: u32, brick_layer: u32) -> vec4<f32> {
+    let place = (max(cell_values[cell].slot, 2u) - 2u) * COLUMNS + ray / 4u;
+    return values_on_slope(bricks[place], brick_layer, ray % 4u);
+}
+
 // What stands for a brick that is not sampled.
 fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<f32> {
     let place = (max(cell_values[cell].slot, 2u) - 2u) * COLUMNS + column;
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
-    let hull = hull_of(vec2(bricks[place].low[brick_layer], bricks[place].high[brick_layer]), paths);
+    let values = vec2(bricks[place].low[brick_layer], bricks[place].high[brick_layer]);
+    let hull = hull_of(values, shades_over(values).range, paths);
     return select(vec4(0.0), hull.middle, offers[place][0][brick_layer] >= 0.0);
 }

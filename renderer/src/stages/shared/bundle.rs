@@ -21,7 +21,7 @@ struct Chunk {
     budget: f32,
     relaxation: f32,
     super_pixels: u32,
-    z_adaptive: u32,
+    between: u32,
     padding: u32,
 }
 
@@ -103,7 +103,7 @@ impl Bundles {
             budget: sampling.budget().unwrap_or(0.0),
             relaxation: sampling.relaxation,
             super_pixels: sampling.super_pixels.into(),
-            z_adaptive: sampling.may_coarsen().into(),
+            between: sampling.between() as u32,
             padding: 0,
         };
         self.chunk.write(gpu, &[chunk])
@@ -209,7 +209,7 @@ mod tests {
             budget,
             relaxation,
             super_pixels,
-            z_adaptive,
+            between,
             padding
         );
     }

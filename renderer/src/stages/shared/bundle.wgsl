@@ -10,12 +10,18 @@ struct Chunk {
     budget: f32,
     // E_relax.
     relaxation: f32,
-    // 1 where bricks, or by the paper's bound cells, may be shown unsampled, and be sampled more coarsely
-    // along rays.
+    // 1 where bricks, or by the paper's bound cells, may be shown unsampled.
     super_pixels: u32,
-    z_adaptive: u32,
+    // What they may be between that and sampled at every slice.
+    between: u32,
     padding: u32,
 }
+
+const NOTHING_BETWEEN: u32 = 0u;
+// Sampled more coarsely along rays.
+const LEVELS_BETWEEN: u32 = 1u;
+// Bricks that follow their slopes.
+const SLOPES: u32 = 2u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var<uniform> tile: Tile;

@@ -11,11 +11,40 @@ const COLUMNS: u32 = 16u;
 const BRICK_DEPTH: u32 = 4u;
 const EMPTY: vec2<f32> = vec2(-1.0, -1.0);
 const COVERED: f32 = 2.0;
+const FAR: f32 = 1e30;
 
-// Values of a column's bricks, components from front to back.
+// Values of a column's bricks, components from front to back; and how the quantity runs through each of
+// them, as far as it is linear.
 struct ColumnValues {
     low: vec4<f32>,
     high: vec4<f32>,
+    // In the middle; from there to the right and to the upper side, and to the back: pairs of half floats
+    // (pack2x16float). The last pair ends with how far the quantity may be off.
+    middle: vec4<f32>,
+    across: vec4<u32>,
+    along: vec4<u32>,
+}
+
+// Where samples lie in a brick: x̂ and ŷ of the camera are its sides, ±1 at the rays of the column.
+const SLACK: f32 = 1.0001;
+
+fn no_values() -> ColumnValues {
+    let none = vec4(EMPTY.x);
+    return ColumnValues(none, none, vec4(0.0), vec4(0u), vec4(0u));
+}
+
+// The quantity at a ray's samples in a brick, by the brick's slope. `ray`: 0 to 3 in the column.
+fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
+    let depths = frame.sample_offset[brick];
+    let side = vec2(select(-1.0, 1.0, (ray & 1u) == 1u), select(1.0, -1.0, (ray & 2u) == 2u));
+    let aside = (1.0 + depths) / ((1.0 + depths.w) * SLACK);
+    let behind = (2.0 * depths - depths.x - depths.w) / ((depths.w - depths.x) * SLACK);
+    let rise_across = dot(unpack2x16float(values.across[brick]), side);
+    let rise_along = unpack2x16float(values.along[brick]).x;
+    let slope = values.middle[brick] + rise_across * aside + rise_along * behind;
+    // Nor is the quantity itself anywhere else.
+    let high = select(values.high[brick], values.high[brick] - COVERED, values.high[brick] >= COVERED);
+    return clamp(slope, vec4(values.low[brick]), vec4(min(high, 1.0)));
 }
 
 // What is known of a cell.
@@ -27,8 +56,8 @@ struct CellEntry {
     // What became of it in the last choice: the place of its class's counter. Stale, like the masks,
     // where the bundle ended before the cell.
     class_index: u32,
-    // Bricks that are sampled, at every slice and at level 2: bit 16·(b mod 2) + c of word b/2 is brick
-    // b of column c.
+    // Bricks that are sampled at every slice, and those that are at level 2 or follow their slope: bit
+    // 16·(b mod 2) + c of word b/2 is brick b of column c.
     sampled: vec2<u32>,
     coarse: vec2<u32>,
 }
@@ -47,15 +76,25 @@ struct BundleEntry {
     charged: array<f32, 16>,
 }
 
-fn transfer_over(values: vec2<f32>) -> Extremes {
+// The transfer function over values: its extremes, and how steep it is at most.
+struct Shades {
+    range: Extremes,
+    steepness: vec4<f32>,
+}
+
+fn shades_over(values: vec2<f32>) -> Shades {
     // The sum with COVERED may have lost half a unit of its last place.
-    let high = select(values.y, values.y - COVERED + 3e-7, values.y >= COVERED);
-    return transfer_range(min(values.x, high), min(high, 1.0));
+    let upper = select(values.y, values.y - COVERED + 3e-7, values.y >= COVERED);
+    let high = clamp(upper, 0.0, 1.0);
+    let low = clamp(values.x, 0.0, high);
+    let begin = segment_at(low);
+    let end = segment_at(high);
+    return Shades(extremes_between(begin, low, end, high), steepness_between(begin, end));
 }
 
 // Whether nothing with values in these bounds is seen at all.
 fn is_transparent(values: vec2<f32>) -> bool {
-    return values.x < 0.0 || transfer_over(values).high.w == 0.0;
+    return values.x < 0.0 || shades_over(values).range.high.w == 0.0;
 }
 
 struct Hull {
@@ -69,18 +108,17 @@ struct Hull {
     open: f32,
 }
 
-// The hull of a brick with the given values. `paths`: bounds of the length of the rays inside, in
+// The hull of a brick with the given values. `transfer`: over them; `paths`: bounds of the length of the rays inside, in
 // reference lengths.
 //
 // With colour c and transparency t between bounds, the response c + t·(b − c) to light b from behind
 // has the bounds of `at_black` (b = 0) and `at_white` (b = 1); four slices alike compose to the same
 // form with t⁴, so the brick counts as one. The upper bound is convex in b and the lower one concave,
 // and the middle is linear, so the two ends decide.
-fn hull_of(values: vec2<f32>, paths: vec2<f32>) -> Hull {
+fn hull_of(values: vec2<f32>, transfer: Extremes, paths: vec2<f32>) -> Hull {
     if values.x < 0.0 {
         return Hull(vec4(0.0), 0.0, 0.0, 1.0);
     }
-    let transfer = transfer_over(values);
     let covered = values.y >= COVERED;
     let thick = min(path_opacity(transfer.high.w, paths.y) * (1.0 + ROUNDING), 1.0);
     let thin = select(0.0, path_opacity(transfer.low.w, paths.x) * (1.0 - ROUNDING), covered);
@@ -101,6 +139,24 @@ fn hull_of(values: vec2<f32>, paths: vec2<f32>) -> Hull {
     let width = max(max(wide.x, max(wide.y, wide.z)), thick - thin);
     let seen = thick > 0.0;
     return Hull(vec4(colour, opacity), select(0.0, charge, seen), select(0.0, width, seen), 1.0 - thin);
+}
+
+// By how much a brick that follows its slope, `off` by so much, may differ from full sampling; FAR where that
+// is not known. One sample c + t·(b − c) changes by at most |Δc|·(1 − t) + |Δt|·|b − c|, and the changes of
+// several add up at most; 1 − t ≤ −ln t, which is linear in the path.
+fn slope_charge(values: vec2<f32>, shades: Shades, off: f32, path: f32) -> f32 {
+    if values.x < 0.0 || values.y < COVERED {
+        return FAR;
+    }
+    let transfer = shades.range;
+    let opacity = transfer.high.w;
+    let steep = shades.steepness;
+    let opaque = opacity > 0.99999 && steep.w > 0.0;
+    let by_opacity = select(steep.w / max(1.0 - opacity, 1e-5), FAR, opaque);
+    let contrast = max(transfer.high.rgb, 1.0 - transfer.low.rgb);
+    let colours = -log_transparency(opacity) * steep.rgb + contrast * by_opacity;
+    let most = max(by_opacity, max(colours.x, max(colours.y, colours.z)));
+    return min(off * path * most * (1.0 + ROUNDING), FAR);
 }
 
 struct Band {

@@ -76,23 +76,40 @@ fn node_texture(gpu: &Gpu, [width, height]: [u32; 2]) -> wgpu::Texture {
     })
 }
 
-/// Rows of the node texture: the node itself, then least and greatest value of runs of 1, 2, 4, ...
-/// nodes from it on, which end at the last node at the latest.
+/// Rows of the node texture: the node itself, then least and greatest value and greatest steepness of runs
+/// of 1, 2, 4, ... nodes from it on, which end at the last node at the latest.
 fn texels(nodes: &[Node]) -> Vec<Texel> {
     let values: Vec<Texel> = nodes.iter().map(|node| node.value).collect();
-    let mut runs = vec![(values.clone(), values)];
+    let steepness = nodes.iter().map(Node::steepness).collect();
+    let mut runs = vec![[values.clone(), values, steepness]];
     while 2 << (runs.len() - 1) <= nodes.len() {
         let half = 1 << (runs.len() - 1);
-        let (least, greatest) = &runs[runs.len() - 1];
-        runs.push((doubled(least, half, f32::min), doubled(greatest, half, f32::max)));
+        let [least, greatest, steepest] = &runs[runs.len() - 1];
+        let greater = |runs: &[Texel]| doubled(runs, half, f32::max);
+        runs.push([doubled(least, half, f32::min), greater(greatest), greater(steepest)]);
     }
     let row = |(i, node): (usize, &Node)| {
         let own: [Texel; 3] = bytemuck::cast(*node);
-        let runs = runs.iter().flat_map(move |(least, greatest)| [least[i], greatest[i]]);
+        let runs = runs.iter().flat_map(move |run| [run[0][i], run[1][i], run[2][i]]);
         own.into_iter().chain(runs).collect::<Vec<_>>()
     };
     nodes.iter().enumerate().flat_map(row).collect()
 }
+
+impl Node {
+    /// By how much each channel changes up to the next node, by u: beyond all bounds at a step.
+    fn steepness(&self) -> Texel {
+        let is_step = self.next_u <= self.u && self.u <= 1.0;
+        self.change.map(|change| match change.abs() {
+            0.0 => 0.0,
+            _ if is_step => STEP,
+            change => (change * self.inverse_width).min(STEP),
+        })
+    }
+}
+
+/// Steeper than anything that a slope could follow.
+const STEP: f32 = 1e30;
 
 /// Extremes of runs of twice the length, from those of runs of length `half`.
 fn doubled(runs: &[Texel], half: usize, extreme: fn(f32, f32) -> f32) -> Vec<Texel> {
@@ -159,12 +176,15 @@ mod tests {
         let nodes = nodes(&TransferFunction::new(&points).unwrap());
         let texels = texels(&nodes);
         let width = texels.len() / nodes.len();
-        assert_eq!(width, 3 + 2 * 4, "15 or 16 nodes have runs of 1, 2, 4 and 8");
+        assert_eq!(width, 3 + 3 * 4, "15 or 16 nodes have runs of 1, 2, 4 and 8");
         for (i, level) in (0..nodes.len()).flat_map(|i| (0..4).map(move |level| (i, level))) {
             let run = nodes[i..].iter().take(1 << level).map(|node| node.value[0]);
             let expected = run.fold([1.0_f32, 0.0], |[a, b], v| [a.min(v), b.max(v)]);
-            let found = [0, 1].map(|end| texels[i * width + 3 + 2 * level + end][0]);
+            let found = [0, 1].map(|end| texels[i * width + 3 + 3 * level + end][0]);
             assert_eq!(found, expected, "run of {} from {i}", 1 << level);
+            let steepest =
+                nodes[i..].iter().take(1 << level).map(|node| node.steepness()[0]).fold(0.0, f32::max);
+            assert_eq!(texels[i * width + 5 + 3 * level][0], steepest, "run of {} from {i}", 1 << level);
         }
     }
 

@@ -3,7 +3,7 @@
 // A texture, not a buffer: a texel is one fetch of four numbers. A row a node: the colour and opacity
 // at its u; their change up to the next node; its u, 1/(u of the next node − u) or 0 at a step, and
 // the u of the next node; then, for runs of 1, 2, 4, ... nodes from this one on, the least and the
-// greatest of their colours and opacities.
+// greatest of their colours and opacities, and how steep these are at most from there to the next node.
 
 const BUCKETS: f32 = 256.0;
 
@@ -40,14 +40,18 @@ struct Extremes {
     high: vec4<f32>,
 }
 
-// The first texel of a row in which the extremes of 1, 2, 4, ... nodes from there on stand.
+// The first texel of a row in which the extremes of 1, 2, 4, ... nodes from there on stand, and how many
+// texels each of these runs has.
 const EXTREMES: u32 = 3u;
+const RUN: u32 = 3u;
 
 // Bounds of colour and opacity over [low, high] in [0, 1]: at the ends, and at the nodes between
 // them, which two overlapping runs of a power of two cover. Widened by the rounding of `value_in`.
 fn transfer_range(low: f32, high: f32) -> Extremes {
-    let begin = segment_at(low);
-    let end = segment_at(high);
+    return extremes_between(segment_at(low), low, segment_at(high), high);
+}
+
+fn extremes_between(begin: Segment, low: f32, end: Segment, high: f32) -> Extremes {
     let a = value_in(begin, low);
     let b = value_in(end, high);
     var least = min(a, b);
@@ -55,7 +59,7 @@ fn transfer_range(low: f32, high: f32) -> Extremes {
     let between = end.node - begin.node;
     if between > 0u {
         let level = firstLeadingBit(between);
-        let texel = EXTREMES + 2u * level;
+        let texel = EXTREMES + RUN * level;
         let first = begin.node + 1u;
         let second = end.node + 1u - (1u << level);
         least = min(least, min(textureLoad(nodes, vec2(texel, first), 0), textureLoad(nodes, vec2(texel, second), 0)));
@@ -65,6 +69,16 @@ fn transfer_range(low: f32, high: f32) -> Extremes {
         );
     }
     return Extremes(max(least * (1.0 - ROUNDING), vec4(0.0)), min(greatest * (1.0 + ROUNDING), vec4(1.0)));
+}
+
+// Bound of the change of colour and opacity by u, anywhere in the segments from `begin` to `end`.
+fn steepness_between(begin: Segment, end: Segment) -> vec4<f32> {
+    let segments = end.node + 1u - begin.node;
+    let level = firstLeadingBit(segments);
+    let texel = EXTREMES + RUN * level + 2u;
+    let second = begin.node + segments - (1u << level);
+    let steepest = max(textureLoad(nodes, vec2(texel, begin.node), 0), textureLoad(nodes, vec2(texel, second), 0));
+    return steepest * (1.0 + ROUNDING);
 }
 
 // Relative error of a value of the transfer function, and of an opacity.

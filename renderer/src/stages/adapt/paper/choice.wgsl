@@ -51,7 +51,7 @@ fn is_allowed(place: u32, kind: u32, budget: f32) -> bool {
     if kind == SUPER_PIXEL {
         return chunk.super_pixels != 0u;
     }
-    return chunk.z_adaptive != 0u && width(bounds[place].levels[kind]) < budget;
+    return chunk.between != NOTHING_BETWEEN && width(bounds[place].levels[kind]) < budget;
 }
 
 // The widest choice that keeps the whole ray below the budget; of equal ones the super-pixel, which

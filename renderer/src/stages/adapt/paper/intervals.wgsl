@@ -46,7 +46,7 @@ fn extremes_of_slab(values: vec2<f32>) -> Extremes {
     if values.x < 0.0 {
         return Extremes(vec4(vec3(1.0), 0.0), vec4(0.0));
     }
-    var extremes = transfer_over(values);
+    var extremes = shades_over(values).range;
     extremes.low.a = select(0.0, extremes.low.a, values.y >= COVERED);
     return extremes;
 }

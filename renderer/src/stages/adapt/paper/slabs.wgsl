@@ -7,7 +7,6 @@
 
 const SLABS: u32 = 16u;
 const ALL_SLABS: u32 = 0xffffu;
-const FAR: f32 = 1e30;
 // A ray of a column is no farther from the column's axis than this, in pixels: more than √½.
 const COLUMN_REACH: f32 = 0.7072;
 // Wider, or narrower where a ray is to be covered, than all rounding of particles' places.
