@@ -8,7 +8,8 @@ use reference::random::Random;
 use reference::scenes::{Scene, plain_view};
 use renderer::{ControlPoint, Without};
 
-const PARTS: [Without; 3] = [Without::Expansion, Without::Coverage, Without::Greed];
+const PARTS: [Without; 5] =
+    [Without::Expansion, Without::Coverage, Without::Slopes, Without::GreedFromFront, Without::GreedFromBack];
 
 #[test]
 fn the_tolerance_is_kept_without_any_part() {

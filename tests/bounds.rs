@@ -21,9 +21,13 @@ struct Reading {
     covered: bool,
     /// The share of the charge that is believed.
     charge: f64,
+    /// The share of the error of a slope, and of its rise.
+    off: f64,
+    rise: f64,
 }
 
-const AS_IT_IS: Reading = Reading { shrunk: 0.0, shifted: 0.0, covered: false, charge: 1.0 };
+const AS_IT_IS: Reading =
+    Reading { shrunk: 0.0, shifted: 0.0, covered: false, charge: 1.0, off: 1.0, rise: 1.0 };
 
 /// What single precision may add to a difference of two responses in [0, 1].
 const ROUNDING: f64 = 1e-6;
@@ -40,6 +44,7 @@ struct Seen {
     empty: usize,
     ended: usize,
     charged: usize,
+    sloped: usize,
 }
 
 /// The search for broken bounds.
@@ -90,7 +95,17 @@ impl Search<'_> {
                 let samples = self.twin.samples(&place, ray, self.reading.shifted);
                 samples.iter().for_each(|u| self.within_cell(&place, cell, *u));
                 let response = self.twin.response(&place, ray, &samples);
-                stretches.push(Stretch { front: fronts[ray], response });
+                let stretch = Stretch { front: fronts[ray], response };
+                if let Some(bricks) = &cell.bricks {
+                    self.slope(
+                        &place,
+                        &bricks[place.column as usize][brick as usize],
+                        ray,
+                        &samples,
+                        stretch,
+                    );
+                }
+                stretches.push(stretch);
                 whole[ray].response = behind(whole[ray].response, response);
                 fronts[ray] *= 1.0 - response[3];
             }
@@ -171,6 +186,30 @@ impl Search<'_> {
         }
     }
 
+    /// u at the samples of a ray is near the slope of the brick, and the light of samples on the slope no
+    /// farther from the ray's than is charged.
+    fn slope(&mut self, place: &Place, brick: &Brick, ray: usize, samples: &[Option<f64>; 4], is: Stretch) {
+        let (Some(slope), KnownValues::Between { low, high, .. }) = (brick.slope, brick.values) else {
+            return;
+        };
+        let rise = slope.rise.map(|rise| self.reading.rise * f64::from(rise));
+        let on_slope = self.twin.places(place, ray).map(|at| {
+            let u = f64::from(slope.middle) + at.iter().zip(rise).map(|(at, rise)| at * rise).sum::<f64>();
+            u.clamp(f64::from(low), f64::from(high))
+        });
+        for (u, on_slope) in samples.iter().zip(on_slope) {
+            if u.is_some_and(|u| (u - on_slope).abs() > self.reading.off * f64::from(slope.off)) {
+                self.broken.push(format!("{place:?}: {u:?} is not near {on_slope} on {slope:?}"));
+            }
+        }
+        let Some(charge) = brick.coarse_charge.map(f64::from) else { return };
+        self.seen.sloped += 1;
+        let off = is.from(self.twin.response(place, ray, &on_slope.map(Some)));
+        if off > self.reading.charge * charge + ROUNDING {
+            self.broken.push(format!("{place:?}: the slope is {off} from a ray, charged {charge}"));
+        }
+    }
+
     /// What is shown in place of a whole column is no farther from any of its rays than its bricks are
     /// charged. Where no bricks were looked at, there is nothing to be seen.
     fn shown(&mut self, place: &Place, cell: &CellDetail, rays: &[Stretch]) {
@@ -239,8 +278,11 @@ fn what_is_true_lies_within_all_bounds() {
     let (seen, broken) = search(200..236, AS_IT_IS, 3, 20);
     println!("{seen:?}");
     assert!(broken.is_empty(), "{}", broken.join("\n"));
-    let Seen { covered, uncovered, empty, ended, charged } = seen;
-    assert!([covered, uncovered, empty, ended, charged].iter().all(|count| *count > 1000), "{seen:?}");
+    let Seen { covered, uncovered, empty, ended, charged, sloped } = seen;
+    assert!(
+        [covered, uncovered, empty, ended, charged, sloped].iter().all(|count| *count > 1000),
+        "{seen:?}"
+    );
 }
 
 #[test]
@@ -259,6 +301,8 @@ fn wrong_bounds_are_noticed() {
         ("a slice in front", Reading { shifted: -1.0, ..AS_IT_IS }),
         ("covered without proof", Reading { covered: true, ..AS_IT_IS }),
         ("half of the charge", Reading { charge: 0.5, ..AS_IT_IS }),
+        ("a slope nearer by a half", Reading { off: 0.5, ..AS_IT_IS }),
+        ("a slope that falls", Reading { rise: -1.0, ..AS_IT_IS }),
     ] {
         let (_, broken) = search(200..236, reading, 2, 1);
         assert!(!broken.is_empty(), "{what}: nobody notices");

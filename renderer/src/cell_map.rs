@@ -92,7 +92,7 @@ pub struct MapCell {
     pub layer: u32,
     pub particles: u32,
     pub class: CellClass,
-    /// Bricks sampled at every slice, and once for four slices.
+    /// Bricks sampled at every slice, and those that are once for four slices or follow their slope.
     pub sampled: BrickMask,
     pub coarse: BrickMask,
 }
@@ -179,8 +179,21 @@ pub struct Brick {
     pub values: KnownValues,
     /// What it would add to the error of its rays without a sample; `None` where they have ended.
     pub charge: Option<f32>,
-    /// What it would add at level 2, where that is considered.
+    /// What it would add at level 2 or by its slope, where that is considered.
     pub coarse_charge: Option<f32>,
+    /// Where every sample meets a particle.
+    pub slope: Option<Slope>,
+}
+
+/// How u runs through a brick, as far as it is linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slope {
+    /// u in the middle of the brick.
+    pub middle: f32,
+    /// By how much it is more at the right, upper and far ends of the brick than there.
+    pub rise: [f32; 3],
+    /// How far u at any sample may be from that.
+    pub off: f32,
 }
 
 /// Bricks of a cell, by column, from front to back.

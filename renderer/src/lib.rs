@@ -59,7 +59,7 @@ mod view;
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
 pub use cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,
-    CellMap, KnownValues, MapCell, bundle_of, column_of,
+    CellMap, KnownValues, MapCell, Slope, bundle_of, column_of,
 };
 pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};

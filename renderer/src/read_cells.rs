@@ -251,6 +251,7 @@ impl Renderer {
                 values: KnownValues::of([values[place].low[brick], values[place].high[brick]]),
                 charge: offers[place].to_show(brick),
                 coarse_charge: offers[place].to_coarsen(brick),
+                slope: values[place].slope(brick),
             })
         };
         let cell = |number: usize| {

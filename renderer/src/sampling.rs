@@ -64,8 +64,10 @@ pub enum Without {
     Expansion,
     /// Any ray may miss the particles of any brick.
     Coverage,
-    /// Bricks are shown from front to back until the budget is used up.
-    Greed,
+    /// Bricks are sampled less from front to back, whatever each saves, until the budget is used up.
+    GreedFromFront,
+    /// Bricks are sampled less from back to front: the paper's order.
+    GreedFromBack,
     /// Bricks are sampled, or shown by one colour.
     Slopes,
 }

@@ -86,6 +86,17 @@ impl Bricks {
         std::array::from_fn(|k| self.value(pixel, slab(k) + shift))
     }
 
+    /// Where a ray's full samples lie in a brick: to the right, up and back, from −1 to 1.
+    pub fn places(&self, place: &Place, ray: usize) -> [[f64; 3]; 4] {
+        let depth = |k: f64| self.setup.slices.depth(f64::from(place.first_slab()) + k + 0.5);
+        let [right, down] = RAYS[ray].map(|side| 2.0 * f64::from(side) - 1.0);
+        std::array::from_fn(|k| {
+            let (depth, first, last) = (depth(k as f64), depth(0.0), depth(3.0));
+            let aside = depth / last;
+            [right * aside, -down * aside, (2.0 * depth - first - last) / (last - first)]
+        })
+    }
+
     /// Premultiplied colour and opacity of one ray's samples in a brick.
     pub fn response(&self, place: &Place, ray: usize, samples: &[Option<f64>; 4]) -> [f64; 4] {
         let mut passed = Ray::default();

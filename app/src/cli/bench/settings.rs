@@ -30,10 +30,12 @@ enum Change {
 }
 
 /// A line for each: its name, and what it changes.
-static ABLATIONS: [Ablation; 8] = [
+static ABLATIONS: [Ablation; 10] = [
     Ablation { name: "extremes only", change: Change::Method(Without::Expansion) },
     Ablation { name: "no coverage", change: Change::Method(Without::Coverage) },
-    Ablation { name: "no greedy", change: Change::Method(Without::Greed) },
+    Ablation { name: "no slopes", change: Change::Method(Without::Slopes) },
+    Ablation { name: "no greedy: from front", change: Change::Method(Without::GreedFromFront) },
+    Ablation { name: "no greedy: from back", change: Change::Method(Without::GreedFromBack) },
     Ablation { name: "only z", change: Change::View(|view| view.sampling.super_pixels = false) },
     Ablation {
         name: "skipping only",
@@ -132,7 +134,8 @@ mod tests {
         let settings = Setting::list(&[Tolerance(Some(0.25))], true);
         let mut parts: Vec<Without> = settings.iter().map(Setting::without).collect();
         parts.retain(|part| *part != Without::Nothing);
-        assert_eq!(parts, [Without::Expansion, Without::Coverage, Without::Greed]);
+        let [front, back] = [Without::GreedFromFront, Without::GreedFromBack];
+        assert_eq!(parts, [Without::Expansion, Without::Coverage, Without::Slopes, front, back]);
         assert_eq!(settings[1].without(), Without::Nothing);
     }
 }

@@ -1,6 +1,9 @@
 //! What the analysis leaves on the device, as the host reads it (`hull.wgsl`).
 
 use bytemuck::{Pod, Zeroable};
+use half::f16;
+
+use crate::cell_map::Slope;
 
 /// `CellEntry`: what is known of a cell, and what became of it.
 #[repr(C)]
@@ -38,6 +41,16 @@ pub(crate) struct ColumnValues {
     pub along: [u32; 4],
 }
 
+impl ColumnValues {
+    /// How u runs through a brick in which every sample meets a particle.
+    pub(crate) fn slope(&self, brick: usize) -> Option<Slope> {
+        let pair = |bits: u32| [0, 16].map(|shift| f16::from_bits((bits >> shift) as u16).to_f32());
+        let [[right, up], [back, off]] = [self.across[brick], self.along[brick]].map(pair);
+        let slope = Slope { middle: self.middle[brick], rise: [right, up, back], off };
+        (self.high[brick] >= COVERED).then_some(slope)
+    }
+}
+
 /// `Offers` of `offers.wgsl`: costs of the steps by which the bricks of a column are sampled less.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -53,7 +66,7 @@ impl Offers {
         (self.first[brick] >= 0.0).then_some(cost)
     }
 
-    /// What it costs to sample a brick at level 2, where that is a step of its own.
+    /// What it costs to sample a brick at level 2 or to let it follow its slope, where that is a step of its own.
     pub(crate) fn to_coarsen(self, brick: usize) -> Option<f32> {
         (self.first[brick] >= 0.0 && self.second[brick] >= 0.0).then_some(self.first[brick])
     }

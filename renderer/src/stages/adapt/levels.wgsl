@@ -79,7 +79,7 @@ fn make_offers(hull: ColumnHull, cell: Cell, slot: u32, before: f32, place: Plac
         shows[kept] = select(hull.shown, vec4(0.0), ended);
     }
     if cell.exists && !ended {
-        let classes = classes_of(mine, f32(cell.end - cell.first));
+        let classes = classes_of(mine, f32(cell.end - cell.first), cell.layer);
         spend_four(place.column, mine.first, classes.first);
         if chunk.between != NOTHING_BETWEEN {
             spend_four(place.column, mine.second, classes.second);
@@ -131,7 +131,7 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
             mine = offers[kept];
             seen = shows[kept].a > 0.0;
         }
-        let classes = classes_of(mine, f32(cell.end - cell.first));
+        let classes = classes_of(mine, f32(cell.end - cell.first), cell.layer);
         marginal[lane] =
             marginal_cost(plan, mine.first, classes.first) + marginal_cost(plan, mine.second, classes.second);
         clear_masks(lane);

@@ -175,7 +175,8 @@ fn pipeline(gpu: &Gpu, (kernel, without): (u32, Without)) -> Pipeline {
             ("KERNEL", f64::from(kernel)),
             left_out("EXTREMES_ONLY", Without::Expansion),
             left_out("NO_COVERAGE", Without::Coverage),
-            left_out("NO_GREED", Without::Greed),
+            left_out("FRONT_TO_BACK", Without::GreedFromFront),
+            left_out("BACK_TO_FRONT", Without::GreedFromBack),
         ],
         bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 10]].concat(),
     };

@@ -104,21 +104,26 @@ struct Classes {
     second: vec4<u32>,
 }
 
-fn classes_of(offers: Offers, particles: f32) -> Classes {
+fn classes_of(offers: Offers, particles: f32, layer: u32) -> Classes {
     let two_steps = offers.second >= vec4(0.0);
     let first_saves = select(vec4(1.0), vec4(saved_between()), two_steps) * particles;
     return Classes(
-        class_of(offers.first, first_saves),
-        class_of(offers.second, vec4((1.0 - saved_between()) * particles)),
+        class_of(offers.first, first_saves, layer),
+        class_of(offers.second, vec4((1.0 - saved_between()) * particles), layer),
     );
 }
 
-// All steps in one class: they are taken from front to back, whatever they save.
-override NO_GREED: bool = false;
+// Steps in the order of their cells, whatever they save.
+override FRONT_TO_BACK: bool = false;
+override BACK_TO_FRONT: bool = false;
 
-fn class_of(cost: vec4<f32>, saved: vec4<f32>) -> vec4<u32> {
-    if NO_GREED {
-        return vec4(0u);
+fn class_of(cost: vec4<f32>, saved: vec4<f32>, layer: u32) -> vec4<u32> {
+    let place = layer * CLASSES / tile.layers;
+    if FRONT_TO_BACK {
+        return vec4(place);
+    }
+    if BACK_TO_FRONT {
+        return vec4(CLASSES - 1u - place);
     }
     let score = max(cost, vec4(0.0)) / (chunk.budget * saved);
     let bits = bitcast<vec4<u32>>(score) >> vec4(22u);
