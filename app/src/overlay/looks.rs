@@ -18,7 +18,7 @@ const LOOKS: [Look; CellClass::ALL.len()] = [
     Look {
         name: "Mixed",
         rgb: [0xf6, 0xbf, 0x4a],
-        meaning: "Sampled in some bricks, shown by one colour each in the others",
+        meaning: "Sampled in some bricks, shown without a sample in the others",
     },
     Look { name: "Level 1", rgb: [0xbb, 0xff, 0xad], meaning: "Sampled once for 2 slices" },
     Look { name: "Level 2", rgb: [0x91, 0xae, 0x8b], meaning: "Sampled once for 4 slices" },
@@ -27,7 +27,7 @@ const LOOKS: [Look; CellClass::ALL.len()] = [
     Look {
         name: "Super-pixel",
         rgb: [0x54, 0xb4, 0xf4],
-        meaning: "Shown by single colours, without a sample",
+        meaning: "Shown by single colours or slopes of the quantity, without a sample",
     },
     Look { name: "Transparent", rgb: [0xe0, 0xd3, 0xe3], meaning: "With nothing to be seen in them" },
     Look { name: "Occluded", rgb: [0x44, 0x47, 0x4d], meaning: "Behind what lets no light through" },

@@ -111,7 +111,7 @@ fn values(painter: &Painter, session: &Session, probed: &Probed, axis: &Axis, ho
         let left = axis.x(cell.cell.layer as f32);
         let width = axis.step();
         let gap = if width > 6.0 { 0.5 } else { 0.0 };
-        let parts = parts(cell, probed.column());
+        let parts = parts(cell, probed.column(), session.view.sampling.super_pixels);
         let faint = if parts.is_empty() { 0.6 } else { 0.28 };
         let whole = colour(cell.cell.class);
         bar(left + gap, left + width - gap, cell.values, whole.gamma_multiply(faint));
@@ -125,21 +125,23 @@ fn values(painter: &Painter, session: &Session, probed: &Probed, axis: &Axis, ho
 
 /// What is known of a cell from front to back: of the bricks of a column, or by the paper's bound of the
 /// cell's slabs; and what became of each.
-fn parts(cell: &CellDetail, column: usize) -> Vec<(KnownValues, CellClass)> {
+fn parts(cell: &CellDetail, column: usize, super_pixels: bool) -> Vec<(KnownValues, CellClass)> {
     if let Some(slabs) = &cell.slabs {
         return slabs.iter().map(|values| (*values, cell.cell.class)).collect();
     }
     let Some(bricks) = &cell.bricks else { return Vec::new() };
-    let part = |(number, brick): (usize, &Brick)| (brick.values, brick_class(cell, column, number));
+    let class = |number: usize| brick_class(cell, column, number, super_pixels);
+    let part = |(number, brick): (usize, &Brick)| (brick.values, class(number));
     bricks[column].iter().enumerate().map(part).collect()
 }
 
-/// What became of one brick, as the class of a cell of such bricks.
-fn brick_class(cell: &CellDetail, column: usize, brick: usize) -> CellClass {
+/// What became of one brick, as the class of a cell of such bricks. With super-pixels, no brick is sampled
+/// more coarsely.
+fn brick_class(cell: &CellDetail, column: usize, brick: usize, super_pixels: bool) -> CellClass {
     match cell.cell.class {
         class @ (CellClass::Occluded | CellClass::Transparent) => class,
         _ if cell.cell.sampled.contains(column, brick) => CellClass::Full,
-        _ if cell.cell.coarse.contains(column, brick) => CellClass::ZAdaptive(2),
+        _ if cell.cell.coarse.contains(column, brick) && !super_pixels => CellClass::ZAdaptive(2),
         _ => CellClass::SuperPixel,
     }
 }

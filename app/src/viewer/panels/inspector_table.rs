@@ -18,7 +18,11 @@ const COLUMNS: [(&str, f32, &str); 7] = [
     ("Class", 154.0, "What became of the cell"),
     ("Particles", 284.0, "Particles in the cell"),
     ("u", 386.0, "Bounds of the quantity in its range, over all samples of the cell"),
-    ("Bricks", 428.0, "Sampled bricks of 64; behind a plus, those sampled once for four slices"),
+    (
+        "Bricks",
+        428.0,
+        "Sampled bricks of 64; behind a plus, those on a slope, or sampled once for four slices",
+    ),
     ("Charge", 484.0, "What the cell adds to the error of this pixel's rays, at most"),
 ];
 const CLASS: usize = 2;

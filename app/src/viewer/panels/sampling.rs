@@ -95,20 +95,21 @@ fn bound(ui: &mut Ui, bound: &mut Bound) {
 }
 
 fn super_pixels(ui: &mut Ui, on: &mut bool) {
-    let hint = "Bricks whose samples the tolerance cannot tell apart are shown by one colour each. Without them \
-                and without z-levels everything that is seen is sampled in full.";
+    let hint = "Bricks whose samples the tolerance cannot tell apart are shown without a sample: by one colour \
+                each or, with z-levels, by a slope. Without them and without z-levels everything that is seen \
+                is sampled in full.";
     widgets::row(ui, "Super-pixels", |ui| ui.checkbox(on, "One colour a brick").on_hover_text(hint));
 }
 
 fn levels(ui: &mut Ui, on: &mut bool) {
-    let hint = "Bricks may be sampled once a ray for their four slices, and cells, by the interval bound, for up \
-                to 16. By the difference bound that is worth more than a super-pixel only where it is relaxed, \
-                or without super-pixels.";
-    widgets::row(ui, "z-levels", |ui| ui.checkbox(on, "Longer steps along the ray").on_hover_text(hint));
+    let hint = "What lies between full sampling and a super-pixel: bricks follow the slope of the quantity or, \
+                without super-pixels, are sampled once a ray for their four slices. By the interval bound, \
+                cells are sampled once for up to 16.";
+    widgets::row(ui, "z-levels", |ui| ui.checkbox(on, "Slopes and longer steps").on_hover_text(hint));
 }
 
 fn relaxation(ui: &mut Ui, relaxation: &mut f64) {
-    let hint = "E_relax: how much of the bound of a longer step is not charged to the tolerance. At 0 no pixel \
+    let hint = "E_relax: how much of the bound of a slope or longer step is not charged to the tolerance. At 0 no pixel \
                 is farther from full sampling than the tolerance; above 0 that is likely, and no longer \
                 certain.";
     widgets::row(ui, "Relaxation", |ui| {

@@ -268,14 +268,17 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
     return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
 }
 
+const STEEP: f32 = 1e4;
+
 // How the quantity runs through bricks in which Σ w is at least `least_weight`, and how far it is from that:
 // Q − mean = N/Σw, where only ∇N·δ and the Σw of the middle are taken.
 fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column, least_weight: vec4<f32>) {
     let mean = e.charge.value / e.weight.value;
     let relative = less(e.charge, mean, e.weight);
-    let right = column.half_width * relative.a / e.weight.value;
-    let up = column.half_width * relative.b / e.weight.value;
-    let back = column.half_depth * relative.s / e.weight.value;
+    // What half floats hold; anything as steep is `off` by more than the whole range.
+    let right = clamp(column.half_width * relative.a / e.weight.value, vec4(-STEEP), vec4(STEEP));
+    let up = clamp(column.half_width * relative.b / e.weight.value, vec4(-STEEP), vec4(STEEP));
+    let back = clamp(column.half_depth * relative.s / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let rise = abs(right) + abs(up) + abs(back);
     let weight_off = swing(e.weight, column) + sag_either_way(e.weight, column) + e.rest;
     let off = rise * weight_off + sag_either_way(relative, column) + remainder(e, mean);
