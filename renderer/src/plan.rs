@@ -1,6 +1,7 @@
 //! How a picture is cut into tiles that fit the device. Pure: no device is touched here.
 
 use crate::camera::CELL_SLICES;
+use crate::stages::adapt::COLUMN_STRIDE;
 
 /// A box of cells that is built and cast at once: bundles × layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,8 +40,8 @@ const WORD: u64 = 4;
 /// Bytes of a cell in the widest of the arrays over all cells.
 const CELL_STRIDE: u64 = 32;
 /// Bytes of an analysed cell in the widest of its arrays, and in all of them: those of both bounds.
-const FILLED_STRIDE: u64 = 512;
-const FILLED_BYTES: u64 = 1632;
+const FILLED_STRIDE: u64 = COLUMN_STRIDE * 16;
+const FILLED_BYTES: u64 = FILLED_STRIDE + 1120;
 
 impl TileLimits {
     /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:

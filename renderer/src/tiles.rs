@@ -224,7 +224,7 @@ impl Renderer {
         self.gpu.queue.submit([encoder.finish()]);
         self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
-        // Samples of a cell take twice the place of its bounds.
+        // Samples of a cell take nearly as much place as its bounds, and are no part of the limit.
         let most = match budget {
             Some(_) => (job.limits.filled_cells / 2 / u64::from(tile.layers)).max(1),
             None => bundles,

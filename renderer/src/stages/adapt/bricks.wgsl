@@ -42,20 +42,6 @@ fn column_at(column: u32, axis: vec2<f32>) -> Column {
     return Column(from_axis, direction, 0.5 * (first + last), half_width, half_depth, reach);
 }
 
-// A function of a, b and s up to its second derivatives, in the middles of the four bricks.
-struct Taylor {
-    value: vec4<f32>,
-    a: vec4<f32>,
-    b: vec4<f32>,
-    s: vec4<f32>,
-    aa: vec4<f32>,
-    bb: vec4<f32>,
-    ss: vec4<f32>,
-    ab: vec4<f32>,
-    sa: vec4<f32>,
-    sb: vec4<f32>,
-}
-
 struct Expansion {
     // Σ w and Σ q·w.
     weight: Taylor,
@@ -71,110 +57,9 @@ struct Expansion {
     high: vec4<f32>,
 }
 
-fn no_taylor() -> Taylor {
-    let none = vec4(0.0);
-    return Taylor(none, none, none, none, none, none, none, none, none, none);
-}
-
 fn no_expansion() -> Expansion {
     let none = vec4(0.0);
     return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR));
-}
-
-// A kernel W at distances ρ, in radii. Its second derivatives at p, |p| = ρ, are −bend·1 + stretch·p pᵀ:
-// bend = −W'/ρ, stretch = (W'' + bend)/ρ². All kernels here have them, at the edge too.
-struct Jet {
-    value: vec4<f32>,
-    bend: vec4<f32>,
-    stretch: vec4<f32>,
-}
-
-fn kernel_jet(rho: vec4<f32>) -> Jet {
-    let inside = max(1.0 - rho, vec4(0.0));
-    if KERNEL == 0u {
-        let x = inside * (1.0 + rho);
-        return Jet(x * x * x, 6.0 * x * x, 24.0 * x);
-    }
-    // Where W'' has a cusp, p pᵀ outweighs what is infinite.
-    let safe = max(rho, vec4(1e-6));
-    let square = inside * inside;
-    if KERNEL == 1u {
-        let inner = rho <= vec4(0.5);
-        return Jet(
-            select(2.0 * inside * square, 1.0 - 6.0 * rho * rho * inside, inner),
-            select(6.0 * square / safe, 12.0 - 18.0 * rho, inner),
-            select(6.0 * inside * (1.0 + rho) / (safe * safe), vec4(18.0), inner) / safe,
-        );
-    }
-    return Jet(square * square * (1.0 + 4.0 * rho), 20.0 * square * inside, 60.0 * square / safe);
-}
-
-// Upper bound of the third derivative of a kernel in any direction, at distances from `near` to `far`.
-//
-// With c = cos of the angle to p it is W'''c³ + 3(W'' + bend)/ρ·(c − c³), and c − c³ ≤ 0.385.
-fn kernel_third(near: vec4<f32>, far: vec4<f32>) -> vec4<f32> {
-    let inside = max(1.0 - near, vec4(0.0));
-    let last = min(far, vec4(1.0));
-    if KERNEL == 0u {
-        // 72xu − 48u³, u = ρc: one extremum at u² = x/2, at most 21.5 for u ≤ ρ; the other at u = ρ.
-        let x = inside * (1.0 + near);
-        let inner = min(min(vec4(21.5), 72.0 * last), 33.95 * x * sqrt(x));
-        return max(inner, last * (120.0 * last * last - 72.0));
-    }
-    if KERNEL == 1u {
-        // 54c − 18c³ in the inner half; 18(1/ρ² − 1)(c − c³) − 12c³ in the outer one.
-        let square = max(near * near, vec4(0.25));
-        let outer = max(vec4(12.0), 6.93 * (1.0 / square - 1.0));
-        return select(select(outer, vec4(36.0), near < vec4(0.5)), vec4(0.0), near >= vec4(1.0));
-    }
-    // 180(1 − ρ)²c − 60(1 − ρ²)c³: least at c = 1, where it is 120(1 − ρ)(1 − 2ρ), and that at ρ = ¾.
-    let falling = 120.0 * inside * inside * sqrt(inside / (1.0 + near));
-    let turn = clamp(vec4(0.75), near, max(near, last));
-    return max(falling, 120.0 * (1.0 - turn) * (2.0 * turn - 1.0));
-}
-
-// The kernel's value at distances ρ.
-fn kernel_at(rho: vec4<f32>) -> vec4<f32> {
-    let inside = max(1.0 - rho, vec4(0.0));
-    return kernel(inside * (1.0 + rho));
-}
-
-fn plus(sum: Taylor, factor: f32, term: Taylor) -> Taylor {
-    return Taylor(
-        sum.value + factor * term.value,
-        sum.a + factor * term.a,
-        sum.b + factor * term.b,
-        sum.s + factor * term.s,
-        sum.aa + factor * term.aa,
-        sum.bb + factor * term.bb,
-        sum.ss + factor * term.ss,
-        sum.ab + factor * term.ab,
-        sum.sa + factor * term.sa,
-        sum.sb + factor * term.sb,
-    );
-}
-
-// A kernel of radius h around the middles of bricks: (x, y, z) is the way from there to the particle.
-fn taylor_of(
-    jet: Jet, inverse_square: f32, x: vec4<f32>, y: vec4<f32>, z: vec4<f32>, direction: vec3<f32>,
-) -> Taylor {
-    let bend = inverse_square * jet.bend;
-    let stretch = inverse_square * inverse_square * jet.stretch;
-    let along = x * direction.x + y * direction.y + z;
-    let by_x = stretch * x;
-    let by_y = stretch * y;
-    return Taylor(
-        jet.value,
-        bend * x,
-        bend * y,
-        bend * along,
-        by_x * x - bend,
-        by_y * y - bend,
-        stretch * along * along - dot(direction, direction) * bend,
-        by_x * y,
-        by_x * along - direction.x * bend,
-        by_y * along - direction.y * bend,
-    );
 }
 
 // Adds a particle (place relative to the cell, and 1/h²) of some weight, and quantity relative to the
@@ -207,40 +92,6 @@ fn add_particle(
     (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), reached);
     (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), reached);
     return u32(dot(select(vec4(0.0), vec4(1.0), reached), vec4(1.0)));
-}
-
-// By how much the linear part of a function may exceed its value in the middle.
-fn swing(f: Taylor, column: Column) -> vec4<f32> {
-    return column.half_width * (abs(f.a) + abs(f.b)) + column.half_depth * abs(f.s);
-}
-
-// By how much the quadratic part may exceed zero (side 1), or fall below it (side −1).
-fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
-    let width = column.half_width;
-    let depth = column.half_depth;
-    let across = max(side * f.aa, vec4(0.0)) + max(side * f.bb, vec4(0.0)) + 2.0 * abs(f.ab);
-    let along = max(side * f.ss, vec4(0.0));
-    let oblique = abs(f.sa) + abs(f.sb);
-    return 0.5 * (width * width * across + depth * depth * along) + width * depth * oblique;
-}
-
-fn sag_either_way(f: Taylor, column: Column) -> vec4<f32> {
-    return max(sag(f, column, 1.0), sag(f, column, -1.0));
-}
-
-fn less(f: Taylor, factor: vec4<f32>, g: Taylor) -> Taylor {
-    return Taylor(
-        f.value - factor * g.value,
-        f.a - factor * g.a,
-        f.b - factor * g.b,
-        f.s - factor * g.s,
-        f.aa - factor * g.aa,
-        f.bb - factor * g.bb,
-        f.ss - factor * g.ss,
-        f.ab - factor * g.ab,
-        f.sa - factor * g.sa,
-        f.sb - factor * g.sb,
-    );
 }
 
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.

@@ -43,6 +43,8 @@ pub(crate) struct Adapt {
 
 /// Columns of bricks of a cell.
 const COLUMNS: u64 = 16;
+/// Bytes of the values of a column.
+pub(crate) const COLUMN_STRIDE: u64 = size_of::<entries::ColumnValues>() as u64;
 
 impl Adapt {
     pub(crate) fn new(gpu: &Gpu) -> Adapt {
@@ -56,7 +58,7 @@ impl Adapt {
             cell_values: Buffer::storage(gpu, "values of cells", 32),
             sampled: Buffer::storage(gpu, "sampled cells", 4),
             slots_taken: Buffer::storage(gpu, "slots taken", 4),
-            bricks: Buffer::storage(gpu, "values of bricks", 80),
+            bricks: Buffer::storage(gpu, "values of bricks", COLUMN_STRIDE),
             offers: Buffer::storage(gpu, "offers of bricks", 32),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),
@@ -163,6 +165,8 @@ fn pipeline(gpu: &Gpu, (kernel, without): (u32, Without)) -> Pipeline {
             BUNDLE_WGSL,
             TRANSFER_WGSL,
             HULL_WGSL,
+            include_str!("jets.wgsl"),
+            include_str!("taylor.wgsl"),
             include_str!("bricks.wgsl"),
             include_str!("walk.wgsl"),
             include_str!("values.wgsl"),

@@ -1,0 +1,70 @@
+// Functions around the middles of the four bricks of a column, up to their second derivatives, and how far they
+// stray in a brick.
+
+// Derivatives with respect to a, b and s (bricks.wgsl).
+struct Taylor {
+    value: vec4<f32>,
+    a: vec4<f32>,
+    b: vec4<f32>,
+    s: vec4<f32>,
+    aa: vec4<f32>,
+    bb: vec4<f32>,
+    ss: vec4<f32>,
+    ab: vec4<f32>,
+    sa: vec4<f32>,
+    sb: vec4<f32>,
+}
+
+fn no_taylor() -> Taylor {
+    let none = vec4(0.0);
+    return Taylor(none, none, none, none, none, none, none, none, none, none);
+}
+
+fn plus(sum: Taylor, factor: f32, term: Taylor) -> Taylor {
+    return Taylor(
+        sum.value + factor * term.value,
+        sum.a + factor * term.a,
+        sum.b + factor * term.b,
+        sum.s + factor * term.s,
+        sum.aa + factor * term.aa,
+        sum.bb + factor * term.bb,
+        sum.ss + factor * term.ss,
+        sum.ab + factor * term.ab,
+        sum.sa + factor * term.sa,
+        sum.sb + factor * term.sb,
+    );
+}
+
+fn less(f: Taylor, factor: vec4<f32>, g: Taylor) -> Taylor {
+    return Taylor(
+        f.value - factor * g.value,
+        f.a - factor * g.a,
+        f.b - factor * g.b,
+        f.s - factor * g.s,
+        f.aa - factor * g.aa,
+        f.bb - factor * g.bb,
+        f.ss - factor * g.ss,
+        f.ab - factor * g.ab,
+        f.sa - factor * g.sa,
+        f.sb - factor * g.sb,
+    );
+}
+
+// By how much the linear part of a function may exceed its value in the middle.
+fn swing(f: Taylor, column: Column) -> vec4<f32> {
+    return column.half_width * (abs(f.a) + abs(f.b)) + column.half_depth * abs(f.s);
+}
+
+// By how much the quadratic part may exceed zero (side 1), or fall below it (side −1).
+fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
+    let width = column.half_width;
+    let depth = column.half_depth;
+    let across = max(side * f.aa, vec4(0.0)) + max(side * f.bb, vec4(0.0)) + 2.0 * abs(f.ab);
+    let along = max(side * f.ss, vec4(0.0));
+    let oblique = abs(f.sa) + abs(f.sb);
+    return 0.5 * (width * width * across + depth * depth * along) + width * depth * oblique;
+}
+
+fn sag_either_way(f: Taylor, column: Column) -> vec4<f32> {
+    return max(sag(f, column, 1.0), sag(f, column, -1.0));
+}
