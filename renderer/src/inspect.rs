@@ -46,7 +46,7 @@ impl Renderer {
             .map(|(cell, (begin, &end))| {
                 let (bundle, layer) = (cell as u32 / tile.layers, cell as u32 % tile.layers);
                 GridCell {
-                    bundle: [tile.first[0] + bundle % tile.count[0], tile.first[1] + bundle / tile.count[0]],
+                    bundle: tile.place_of(bundle.into()),
                     layer: tile.first_layer + layer,
                     particles: pairs[begin as usize..end as usize].to_vec(),
                 }

@@ -73,6 +73,12 @@ impl Tile {
         self.bundles() * u64::from(self.layers)
     }
 
+    /// Column and row in the picture of one of its bundles.
+    pub(crate) fn place_of(&self, bundle: u64) -> [u32; 2] {
+        let across = u64::from(self.count[0]);
+        [self.first[0] + (bundle % across) as u32, self.first[1] + (bundle / across) as u32]
+    }
+
     fn fits(&self, limits: TileLimits) -> bool {
         self.cells() <= limits.cells && self.bundles() <= limits.bundles
     }

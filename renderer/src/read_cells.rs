@@ -108,7 +108,7 @@ impl Renderer {
         while first < tile.bundles() {
             let end = tile.bundles().min(first + most);
             for (index, read) in (first..).zip(self.read_bundles(job, tile, first..end)?) {
-                read.append_to(tile, map.bundle_mut(place_of(tile, index)));
+                read.append_to(tile, map.bundle_mut(tile.place_of(index)));
             }
             first = end;
         }
@@ -271,12 +271,6 @@ fn blank(job: &Job, bundle: [u32; 2]) -> BundleDetail {
     let layers = job.slices.layers() as u32;
     let (bound, charged) = (job.scene.sampling.bound, [0.0; COLUMNS]);
     BundleDetail { bundle, layers, end_layer: 0, bound, budget: None, charged, cells: Vec::new() }
-}
-
-/// Column and row in the picture of a bundle of `tile`.
-fn place_of(tile: &Tile, index: u64) -> [u32; 2] {
-    let across = u64::from(tile.count[0]);
-    [tile.first[0] + (index % across) as u32, tile.first[1] + (index / across) as u32]
 }
 
 /// A bundle of a tile as it is on the device.
