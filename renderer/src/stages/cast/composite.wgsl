@@ -18,22 +18,19 @@ fn composite_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     let index = bundle_of(turn);
     var ray = Ray(vec3(0.0), 1.0);
     let end_layer = bundle_entries[index].end_layer;
-    var first = first_of_cell(index * tile.layers);
-    for (var layer = 0u; layer < end_layer && ray.transparency > OPAQUE; layer += 1u) {
+    var layer = next_filled(index, 0u);
+    while layer < end_layer && ray.transparency > OPAQUE {
         let cell = index * tile.layers + layer;
-        let end = cells[cell];
-        if end > first && end <= tile.pair_capacity {
-            let place = sampled[cell];
-            var segment = vec4(0.0);
-            if place > 1u {
-                segment = segments[(place - 2u) * LANES + lane];
-            } else if place == 1u {
-                segment = shows[(cell_values[cell].slot - 2u) * COLUMNS + lane / 4u];
-            }
-            ray.colour += ray.transparency * segment.rgb;
-            ray.transparency *= 1.0 - segment.a;
+        let place = sampled[cell];
+        var segment = vec4(0.0);
+        if place > 1u {
+            segment = segments[(place - 2u) * LANES + lane];
+        } else if place == 1u {
+            segment = shows[(cell_values[cell].slot - 2u) * COLUMNS + lane / 4u];
         }
-        first = end;
+        ray.colour += ray.transparency * segment.rgb;
+        ray.transparency *= 1.0 - segment.a;
+        layer = next_filled(index, layer + 1u);
     }
     pixels[index * LANES + lane] = vec4(ray.colour, ray.transparency);
 }

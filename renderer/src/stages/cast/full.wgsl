@@ -24,29 +24,25 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
         let so_far = pixels[pixel];
         ray = Ray(so_far.rgb, so_far.w);
     }
-    var first = first_of_cell(index * tile.layers);
-    for (var layer = 0u; layer < tile.layers; layer += 1u) {
-        let end = cells[index * tile.layers + layer];
-        if end > first && end <= tile.pair_capacity {
-            let cell = cast_cell(layer, first, end, axis, from_axis, ALL_BRICKS, lane);
-            ray.colour += ray.transparency * cell.rgb;
-            ray.transparency *= 1.0 - cell.a;
-            if lane == 0u {
-                atomicStore(&open_rays, 0u);
-            }
-            workgroupBarrier();
-            if in_picture && ray.transparency > OPAQUE {
-                atomicAdd(&open_rays, 1u);
-            }
-            if lane == 0u {
-                settle_tally(0u, EVALUATIONS);
-                if COUNT_INSIDE { settle_tally(2u, EVALUATIONS_INSIDE); }
-            }
-            if workgroupUniformLoad(&open_rays) == 0u {
-                break;
-            }
+    for (var layer = next_filled(index, 0u); layer < tile.layers; layer = next_filled(index, layer + 1u)) {
+        let place = index * tile.layers + layer;
+        let cell = cast_cell(layer, first_of_cell(place), cells[place], axis, from_axis, ALL_BRICKS, lane);
+        ray.colour += ray.transparency * cell.rgb;
+        ray.transparency *= 1.0 - cell.a;
+        if lane == 0u {
+            atomicStore(&open_rays, 0u);
         }
-        first = end;
+        workgroupBarrier();
+        if in_picture && ray.transparency > OPAQUE {
+            atomicAdd(&open_rays, 1u);
+        }
+        if lane == 0u {
+            settle_tally(0u, EVALUATIONS);
+            if COUNT_INSIDE { settle_tally(2u, EVALUATIONS_INSIDE); }
+        }
+        if workgroupUniformLoad(&open_rays) == 0u {
+            break;
+        }
     }
     pixels[pixel] = vec4(ray.colour, ray.transparency);
 }

@@ -58,7 +58,8 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32, coarse: 
         strands[4u * unit.ray + unit.brick_layer] = strand;
         return;
     }
-    for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
+    let levels = select(0u, BRICK_DEPTH, unit.brick_layer == LEVEL_2);
+    for (var i = 0u; i < levels; i += 1u) {
         if is_chosen(coarse, unit.ray / 4u, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
             strands[4u * unit.ray + i] = composite(vec4(0.0), unit.weights[i], unit.charges[i], reference, path);

@@ -114,6 +114,8 @@ fn sum_particles(
     var w_coarse = vec4(0.0); var q_coarse = vec4(0.0);
     // Evaluations done, and those with a weight above zero.
     var count = vec2(0u);
+    // A loop, not a condition: software adapters go through conditions whether they hold or not.
+    let level_2 = select(0u, 1u, SOME_SHOWN && sampled > ALL_BRICKS && chunk.between == LEVELS_BETWEEN);
     for (var base = first; base < end; base += LANES) {
         if base + lane < end {
             load_particle(base + lane, lane, middle, depths.x, reference);
@@ -130,7 +132,7 @@ fn sum_particles(
             if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, charge, &w1, &q1); }
             if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, charge, &w2, &q2); }
             if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, charge, &w3, &q3); }
-            if SOME_SHOWN && sampled > ALL_BRICKS && chunk.between == LEVELS_BETWEEN {
+            for (var once = 0u; once < level_2; once += 1u) {
                 count += add_samples(level_2_offsets(), arc, charge, &w_coarse, &q_coarse);
             }
         }

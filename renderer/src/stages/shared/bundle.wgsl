@@ -76,6 +76,22 @@ fn first_of_cell(cell: u32) -> u32 {
     return select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
 }
 
+// The next layer, from one on, in which the bundle has a filled cell; the number of layers where there is
+// none. A loop of its own: software adapters go through the body of a condition that does not hold.
+fn next_filled(index: u32, from_layer: u32) -> u32 {
+    var layer = from_layer;
+    var first = first_of_cell(index * tile.layers + layer);
+    while layer < tile.layers {
+        let end = cells[index * tile.layers + layer];
+        if end > first && end <= tile.pair_capacity {
+            break;
+        }
+        first = end;
+        layer += 1u;
+    }
+    return layer;
+}
+
 // A particle as a cell sees it.
 struct Particle {
     // Place relative to the middle of the cell, in units of that middle's depth, and 1/h².
