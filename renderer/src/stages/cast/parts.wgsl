@@ -58,7 +58,8 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32, coarse: 
         strands[4u * unit.ray + unit.brick_layer] = strand;
         return;
     }
-    let levels = select(0u, BRICK_DEPTH, unit.brick_layer == LEVEL_2);
+    let is_coarse = unit.brick_layer == LEVEL_2;
+    let levels = select(0u, BRICK_DEPTH, is_coarse);
     for (var i = 0u; i < levels; i += 1u) {
         if is_chosen(coarse, unit.ray / 4u, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
