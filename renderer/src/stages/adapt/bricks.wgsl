@@ -119,6 +119,7 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
     return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
 }
 
+// Well within what half floats hold.
 const STEEP: f32 = 1e4;
 
 // How the quantity runs through bricks in which Σ w is at least `least_weight`, and how far it is from that:
@@ -126,7 +127,7 @@ const STEEP: f32 = 1e4;
 fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column, least_weight: vec4<f32>) {
     let mean = e.charge.value / e.weight.value;
     let relative = less(e.charge, mean, e.weight);
-    // What half floats hold; anything as steep is `off` by more than the whole range.
+    // Anything as steep as that is `off` by more than the whole range.
     let right = clamp(column.half_width * relative.a / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let up = clamp(column.half_width * relative.b / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let back = clamp(column.half_depth * relative.s / e.weight.value, vec4(-STEEP), vec4(STEEP));

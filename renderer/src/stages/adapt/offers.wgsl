@@ -48,15 +48,18 @@ fn behind(shown: vec4<f32>, middle: vec4<f32>) -> vec4<f32> {
     return shown + (1.0 - shown.a) * middle;
 }
 
-// The hull of one brick; where bricks may follow their slopes, that is charged in place of the width.
-fn brick_hull(column: ColumnValues, brick: u32, paths: vec2<f32>) -> Hull {
+// The hull of one brick, and what is charged for what lies between.
+struct BrickHull {
+    hull: Hull,
+    between: f32,
+}
+
+fn brick_hull(column: ColumnValues, brick: u32, paths: vec2<f32>) -> BrickHull {
     let values = vec2(column.low[brick], column.high[brick]);
     let shades = shades_over(values);
-    var hull = hull_of(values, shades.range, paths);
-    if chunk.between == SLOPES {
-        hull.width = slope_charge(values, shades, unpack2x16float(column.along[brick]).y, paths.y);
-    }
-    return hull;
+    let hull = hull_of(values, shades.range, paths);
+    let slope = slope_charge(values, shades, unpack2x16float(column.along[brick]).y, paths.y);
+    return BrickHull(hull, select(hull.width, slope, chunk.between == SLOPES));
 }
 
 fn hull_of_column(values: ColumnValues, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
@@ -64,12 +67,13 @@ fn hull_of_column(values: ColumnValues, paths: array<vec2<f32>, 4>, depth: f32) 
     let b = brick_hull(values, 1u, paths[1] * depth);
     let c = brick_hull(values, 2u, paths[2] * depth);
     let d = brick_hull(values, 3u, paths[3] * depth);
+    let open = vec4(a.hull.open, b.hull.open, c.hull.open, d.hull.open);
     return ColumnHull(
-        behind(behind(behind(a.middle, b.middle), c.middle), d.middle),
-        vec4(a.charge, b.charge, c.charge, d.charge),
-        vec4(a.width, b.width, c.width, d.width),
-        vec4(1.0, a.open, a.open * b.open, a.open * b.open * c.open),
-        a.open * b.open * c.open * d.open,
+        behind(behind(behind(a.hull.middle, b.hull.middle), c.hull.middle), d.hull.middle),
+        vec4(a.hull.charge, b.hull.charge, c.hull.charge, d.hull.charge),
+        vec4(a.between, b.between, c.between, d.between),
+        vec4(1.0, open.x, open.x * open.y, open.x * open.y * open.z),
+        open.x * open.y * open.z * open.w,
     );
 }
 

@@ -38,15 +38,15 @@ fn list_filled(walk: ptr<function, Walk>, index: u32, lane: u32) {
     let layer = (*walk).layer + lane;
     let cell = index * tile.layers + min(layer, tile.layers - 1u);
     let end = cells[cell];
-    let is_filled = layer < (*walk).end_layer && end > first_of_cell(cell) && end <= tile.pair_capacity;
+    let is_listed = layer < (*walk).end_layer && is_filled(first_of_cell(cell), end);
     let bit = 1u << (lane % 32u);
-    if is_filled {
+    if is_listed {
         atomicOr(&filled_bits[lane / 32u], bit);
     }
     workgroupBarrier();
     let bits = vec2(atomicLoad(&filled_bits[0]), atomicLoad(&filled_bits[1]));
     let before = select(vec2(bits.x, bits.y & (bit - 1u)), vec2(bits.x & (bit - 1u), 0u), lane < 32u);
-    if is_filled {
+    if is_listed {
         filled[countOneBits(before.x) + countOneBits(before.y)] = layer;
     }
     if lane == 0u {

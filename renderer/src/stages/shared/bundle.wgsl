@@ -76,6 +76,11 @@ fn first_of_cell(cell: u32) -> u32 {
     return select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
 }
 
+// Whether a cell with these references holds any, all of them in the buffer.
+fn is_filled(first: u32, end: u32) -> bool {
+    return end > first && end <= tile.pair_capacity;
+}
+
 // The next layer, from one on, in which the bundle has a filled cell; the number of layers where there is
 // none. A loop of its own: software adapters go through the body of a condition that does not hold.
 fn next_filled(index: u32, from_layer: u32) -> u32 {
@@ -83,7 +88,7 @@ fn next_filled(index: u32, from_layer: u32) -> u32 {
     var first = first_of_cell(index * tile.layers + layer);
     while layer < tile.layers {
         let end = cells[index * tile.layers + layer];
-        if end > first && end <= tile.pair_capacity {
+        if is_filled(first, end) {
             break;
         }
         first = end;

@@ -25,7 +25,7 @@ struct ColumnValues {
     along: vec4<u32>,
 }
 
-// Where samples lie in a brick: x̂ and ŷ of the camera are its sides, ±1 at the rays of the column.
+// Bricks are taken to be larger by so much, for rounding. Bounds and slopes measure with the same brick.
 const SLACK: f32 = 1.0001;
 
 fn no_values() -> ColumnValues {
@@ -108,8 +108,8 @@ struct Hull {
     open: f32,
 }
 
-// The hull of a brick with the given values. `transfer`: over them; `paths`: bounds of the length of the rays inside, in
-// reference lengths.
+// The hull of a brick with the given values. `transfer`: of the transfer function over them; `paths`: of the
+// length of the rays inside, in reference lengths.
 //
 // With colour c and transparency t between bounds, the response c + t·(b − c) to light b from behind
 // has the bounds of `at_black` (b = 0) and `at_white` (b = 1); four slices alike compose to the same

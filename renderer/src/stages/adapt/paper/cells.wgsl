@@ -48,7 +48,7 @@ fn next_group(index: u32, first_layer: u32, lane: u32) -> vec2<u32> {
     for (; layer < tile.layers && count < GROUP_CELLS; layer += 1u) {
         let cell = index * tile.layers + layer;
         let end = cells[cell];
-        if end > first && end <= tile.pair_capacity {
+        if is_filled(first, end) {
             if lane == count {
                 group[count] = cell;
             }
