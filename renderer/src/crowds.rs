@@ -63,7 +63,7 @@ impl Renderer {
             }
             let begin = Instant::now();
             let end = portions.min(first + self.crowd_pace.bundles());
-            self.bundles.write_chunk(&self.gpu, first..end, portions, &job.scene.sampling)?;
+            self.bundles.write_chunk(&self.gpu, first..end, 1, &job.scene.sampling)?;
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let shared = self.shared_bindings();
             self.timing.pass(&mut encoder, "ray cast", |pass| {

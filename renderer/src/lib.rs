@@ -44,6 +44,7 @@ mod kernel;
 mod pace;
 mod particles;
 mod picture;
+mod pilot;
 mod plan;
 mod read_cells;
 mod renderer;

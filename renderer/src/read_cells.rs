@@ -37,9 +37,9 @@ impl Renderer {
         let slices = Slices::new(&scene.camera, scene.height, scene.rate);
         let mut map = CellMap::new([scene.width, scene.height], slices.layers() as u32);
         if let Some(picture) = self.known_picture(scene)
-            && let Some((job, tile)) = self.held(scene)?
+            && let Some((_, tile)) = self.held(scene)?
         {
-            self.read_tile(&job, &tile, &mut map)?;
+            self.read_tile(&tile, &mut map)?;
             return Ok((picture, map));
         }
         let picture = self.render_anew(scene, progress, Some(&mut map))?;
@@ -101,13 +101,13 @@ impl Renderer {
     }
 
     /// Reads what became of the cells of `tile`, which is on the device.
-    pub(crate) fn read_tile(&self, job: &Job, tile: &Tile, map: &mut CellMap) -> Result<(), RenderError> {
+    pub(crate) fn read_tile(&self, tile: &Tile, map: &mut CellMap) -> Result<(), RenderError> {
         let bundle_bytes = u64::from(tile.layers) * size_of::<CellEntry>() as u64;
         let most = (READ_AT_ONCE / bundle_bytes).max(1);
         let mut first = 0;
         while first < tile.bundles() {
             let end = tile.bundles().min(first + most);
-            for (index, read) in (first..).zip(self.read_bundles(job, tile, first..end)?) {
+            for (index, read) in (first..).zip(self.read_bundles(tile, first..end)?) {
                 read.append_to(tile, map.bundle_mut(tile.place_of(index)));
             }
             first = end;
@@ -116,19 +116,14 @@ impl Renderer {
     }
 
     /// Reads the cells of the tile's bundles in a range.
-    fn read_bundles(
-        &self,
-        job: &Job,
-        tile: &Tile,
-        bundles: Range<u64>,
-    ) -> Result<Vec<ReadBundle>, RenderError> {
+    fn read_bundles(&self, tile: &Tile, bundles: Range<u64>) -> Result<Vec<ReadBundle>, RenderError> {
         let layers = u64::from(tile.layers);
         let cells = bundles.start * layers..bundles.end * layers;
         // Where the references of the first cell begin is where those of the one before it end.
         let before = cells.start.saturating_sub(1);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let ends = self.grid.cells.read_range(&self.gpu, &mut encoder, before..cells.end);
-        let adapted = self.is_adapted(job, tile).then(|| {
+        let adapted = self.adapted.then(|| {
             let entries = self.adapt.cell_values.read_range(&self.gpu, &mut encoder, cells.clone());
             let bundles = self.adapt.bundle_entries.read_range(&self.gpu, &mut encoder, bundles.clone());
             (entries, bundles)
@@ -163,12 +158,12 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let [x, y] = [0, 1].map(|axis| u64::from(bundle[axis] - tile.first[axis]));
         let index = y * u64::from(tile.count[0]) + x;
-        let read = self.read_bundles(job, tile, index..index + 1)?.remove(0);
+        let read = self.read_bundles(tile, index..index + 1)?.remove(0);
         let mut summary = BundleCells { charged: detail.charged, ..BundleCells::default() };
         let entries: Vec<CellEntry> = read.filled_entries().collect();
         read.append_to(tile, &mut summary);
         (detail.end_layer, detail.charged) = (summary.end_layer, summary.charged);
-        if self.is_adapted(job, tile) {
+        if self.adapted {
             detail.budget = job.scene.sampling.budget();
         }
 

@@ -57,6 +57,8 @@ pub struct Renderer {
     pub(crate) projected: Option<Geometry>,
     pub(crate) sorted: Option<(Geometry, GridSize)>,
     pub(crate) analysed: Option<Analysed>,
+    /// Whether the last tile was sampled as an analysis chose, and not in full.
+    pub(crate) adapted: bool,
     last: Option<(Geometry, Shading, Picture)>,
 }
 
@@ -116,6 +118,7 @@ impl Renderer {
             projected: None,
             sorted: None,
             analysed: None,
+            adapted: false,
             last: None,
             gpu,
         };
@@ -201,7 +204,7 @@ impl Renderer {
                     picture.stats.cells += size.cells;
                     self.cast_tile(&job, &tile, size, &mut tile_progress, &mut picture)?;
                     if let Some(map) = &mut cells_wanted {
-                        self.read_tile(&job, &tile, map)?;
+                        self.read_tile(&tile, map)?;
                     }
                     cells_done += tile.cells();
                 }

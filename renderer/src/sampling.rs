@@ -49,9 +49,8 @@ pub struct Sampling {
     /// For measurements; no view asks for it.
     #[doc(hidden)]
     pub without: Without,
-    /// Analysed even where that hardly pays: for tests.
-    #[doc(hidden)]
-    pub anyway: bool,
+    /// Analysed even where that hardly pays.
+    pub always_adaptive: bool,
 }
 
 /// A part of the method that is left out, to see what it is worth. The tolerance is kept without it.
@@ -86,10 +85,11 @@ const ROUNDING: f32 = 3e-5;
 
 impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
-        let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, .. } = *view;
+        let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, always_adaptive, .. } =
+            *view;
         let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
-        let (without, anyway) = (Without::Nothing, false);
-        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels, without, anyway }
+        let without = Without::Nothing;
+        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels, without, always_adaptive }
     }
 
     /// What there may be between full sampling of a brick or cell and showing it by one colour.

@@ -35,11 +35,17 @@ pub struct Stats {
 }
 
 impl Stats {
+    /// Adds the evaluations of an analysis.
+    pub(crate) fn count_bounds(&mut self, counters: &Counters) {
+        self.evaluations.done += counters.bounds;
+        self.evaluations.bounds += counters.bounds;
+    }
+
     /// Adds what was counted in a tile with `cells` filled cells.
     pub(crate) fn count(&mut self, counters: &Counters, cells: u64, adapted: bool) {
-        self.evaluations.done += counters.evaluations + counters.bounds;
+        self.evaluations.done += counters.evaluations;
         self.evaluations.inside += counters.inside;
-        self.evaluations.bounds += counters.bounds;
+        self.count_bounds(counters);
         self.predicted_error = self.predicted_error.max(f64::from(counters.largest_charge));
         let classes = &mut self.cells_by_class;
         if !adapted {
@@ -53,8 +59,7 @@ impl Stats {
         classes.super_pixel += super_pixel;
         classes.transparent += transparent;
         classes.z_adaptive.iter_mut().zip(z_adaptive).for_each(|(sum, count)| *sum += count);
-        let looked_at = full + mixed + super_pixel + transparent + z_adaptive.iter().sum::<u64>();
-        classes.occluded += cells.saturating_sub(looked_at);
+        classes.occluded += cells.saturating_sub(counters.cells());
     }
 }
 

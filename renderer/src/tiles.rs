@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use crate::selection;
 use crate::stages::cast::Work;
 use crate::stages::grid::Totals;
-use crate::stages::shared::{FrameUniform, TileUniform, pitch};
+use crate::stages::shared::{FrameUniform, TileUniform, pitch, spread};
 use crate::stats::Milliseconds;
 
 /// What every tile of a picture shares.
@@ -32,7 +32,7 @@ pub(crate) struct Job<'a> {
 /// that have been cast before, since the books of its rays are gone.
 fn budget_of(job: &Job, tile: &Tile) -> Option<f32> {
     let sampling = &job.scene.sampling;
-    let worthwhile = sampling.anyway || analysis_may_pay(job.scene);
+    let worthwhile = sampling.always_adaptive || analysis_may_pay(job.scene);
     sampling.budget().filter(|_| tile.first_layer == 0 && worthwhile)
 }
 
@@ -96,13 +96,8 @@ impl Renderer {
     /// Whether the device still has all of the only tile of the last picture, which is that of `job`.
     pub(crate) fn is_held(&self, job: &Job, tile: &Tile) -> bool {
         let sorted = self.sorted.as_ref().is_some_and(|(geometry, _)| *geometry == job.geometry);
-        let known = !self.is_adapted(job, tile) || self.analysed == Some(Analysed::of(job));
+        let known = budget_of(job, tile).is_none() || self.analysed == Some(Analysed::of(job));
         job.only_tile && sorted && known
-    }
-
-    /// Whether `tile` is sampled as an analysis chooses, and not in full.
-    pub(crate) fn is_adapted(&self, job: &Job, tile: &Tile) -> bool {
-        budget_of(job, tile).is_some()
     }
 
     fn build_grid(
@@ -215,39 +210,50 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         self.cast.reserve(&self.gpu, tile)?;
-        let budget = budget_of(job, tile);
-        if budget.is_some() {
+        let has_budget = budget_of(job, tile).is_some();
+        if has_budget {
             self.prepare_analysis(job, tile, size)?;
         }
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.bundles.clear_counters(&mut encoder);
-        self.gpu.queue.submit([encoder.finish()]);
+        self.adapted = has_budget && self.analysis_pays(job, tile, progress, picture)?;
+        self.clear_counters();
         self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
-        // Samples of a cell take nearly as much place as its bounds, and are no part of the limit.
-        let most = match budget {
-            Some(_) => (job.limits.filled_cells / 2 / u64::from(tile.layers)).max(1),
-            None => bundles,
-        };
+        // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
+        // its caches. A software adapter gives each thread a stretch of them beforehand.
+        let stride = if self.gpu.is_software() { spread(bundles) } else { 1 };
         let mut first = 0;
         while first < bundles {
             if progress(first as f32 / bundles as f32).is_break() {
                 return Err(RenderError::Cancelled);
             }
             let begin = Instant::now();
-            let pace = self.pace[usize::from(budget.is_some())].bundles();
-            let end = bundles.min(first + pace.min(most));
-            self.bundles.write_chunk(&self.gpu, first..end, bundles, &job.scene.sampling)?;
+            let chunk = if self.adapted { self.adaptive_chunk(job, tile) } else { self.pace[0].bundles() };
+            let end = bundles.min(first + chunk);
+            self.bundles.write_chunk(&self.gpu, first..end, stride, &job.scene.sampling)?;
             let times = &mut picture.stats.milliseconds;
-            match budget {
-                None => self.cast_fully(job.scene.kernel, end - first, times)?,
-                Some(_) => self.cast_adaptively(job.scene, end - first, times)?,
+            match self.adapted {
+                false => self.cast_fully(job.scene.kernel, end - first, times)?,
+                true => self.cast_adaptively(job.scene, end - first, times)?,
             }
-            self.pace[usize::from(budget.is_some())].learn(end - first, begin.elapsed());
+            self.pace[usize::from(self.adapted)].learn(end - first, begin.elapsed());
             first = end;
         }
-        self.analysed = (budget.is_some() && job.only_tile).then(|| Analysed::of(job));
-        self.fetch_tile(tile, size, budget.is_some(), picture)
+        self.analysed = (has_budget && job.only_tile).then(|| Analysed::of(job));
+        self.fetch_tile(tile, size, picture)
+    }
+
+    /// Forgets what was counted in the tile before.
+    pub(crate) fn clear_counters(&self) {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.bundles.clear_counters(&mut encoder);
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Bundles of `tile` that one submission may analyse.
+    pub(crate) fn adaptive_chunk(&self, job: &Job, tile: &Tile) -> u64 {
+        // Samples of a cell take nearly as much place as its bounds, and are no part of the limit.
+        let most = (job.limits.filled_cells / 2 / u64::from(tile.layers)).max(1);
+        self.pace[1].bundles().min(most)
     }
 
     /// Makes room for the bounds of `tile`, and forgets them where they hold for something else.
@@ -277,13 +283,13 @@ impl Renderer {
         self.submit(encoder, times)
     }
 
-    /// Chooses what to sample in `bundles` bundles, and samples it.
-    fn cast_adaptively(
+    /// Chooses what to sample in `bundles` bundles.
+    pub(crate) fn analyse(
         &mut self,
         scene: &Scene,
         bundles: u64,
         times: &mut Milliseconds,
-    ) -> Result<(), RenderError> {
+    ) -> Result<Work, RenderError> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.adapt.clear_work(&mut encoder);
         let shared = self.shared_bindings();
@@ -294,8 +300,17 @@ impl Renderer {
         drop(shared);
         self.submit(encoder, times)?;
         let work: Vec<u32> = work.take(&self.gpu)?;
-        let work = Work { wholes: work[0].into(), parts: work[1].into() };
+        Ok(Work { wholes: work[0].into(), parts: work[1].into() })
+    }
 
+    /// Chooses what to sample in `bundles` bundles, and samples it.
+    fn cast_adaptively(
+        &mut self,
+        scene: &Scene,
+        bundles: u64,
+        times: &mut Milliseconds,
+    ) -> Result<(), RenderError> {
+        let work = self.analyse(scene, bundles, times)?;
         self.cast.reserve_segments(&self.gpu, work)?;
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let shared = self.shared_bindings();
@@ -336,20 +351,14 @@ impl Renderer {
         Ok(())
     }
 
-    fn fetch_tile(
-        &self,
-        tile: &Tile,
-        size: GridSize,
-        adapted: bool,
-        picture: &mut Picture,
-    ) -> Result<(), RenderError> {
+    fn fetch_tile(&self, tile: &Tile, size: GridSize, picture: &mut Picture) -> Result<(), RenderError> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let pixels = self.cast.pixels.read_back(&self.gpu, &mut encoder, tile.bundles() * 64);
         self.gpu.queue.submit([encoder.finish()]);
         let pixels: Vec<[f32; 4]> = pixels.take(&self.gpu)?;
         picture.place(tile, &pixels);
         let counters = self.bundles.read_counters(&self.gpu)?;
-        picture.stats.count(&counters, size.cells, adapted);
+        picture.stats.count(&counters, size.cells, self.adapted);
         Ok(())
     }
 }

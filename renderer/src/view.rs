@@ -143,6 +143,8 @@ pub struct SamplingView {
     pub z_adaptive: bool,
     pub super_pixels: bool,
     pub bound: Bound,
+    /// Whether what may be left out is found out even where that probably takes longer than full sampling.
+    pub always_adaptive: bool,
 }
 
 impl Default for SamplingView {
@@ -154,6 +156,7 @@ impl Default for SamplingView {
             z_adaptive: true,
             super_pixels: true,
             bound: Bound::default(),
+            always_adaptive: false,
         }
     }
 }

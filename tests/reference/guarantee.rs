@@ -204,7 +204,7 @@ pub struct Trial {
 /// `scene` as the renderer takes it, to be sampled adaptively even where that is not worth its while.
 pub fn prepare_anyway(scene: &Scene) -> renderer::Scene {
     let mut prepared = prepare(scene);
-    prepared.sampling.anyway = true;
+    prepared.sampling.always_adaptive = true;
     prepared
 }
 

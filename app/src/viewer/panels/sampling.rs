@@ -43,6 +43,7 @@ impl SamplingPanel {
             bound(ui, &mut sampling.bound);
             super_pixels(ui, &mut sampling.super_pixels);
             levels(ui, &mut sampling.z_adaptive);
+            always_adaptive(ui, &mut sampling.always_adaptive);
             if sampling.z_adaptive {
                 relaxation(ui, &mut sampling.relaxation);
             }
@@ -106,6 +107,13 @@ fn levels(ui: &mut Ui, on: &mut bool) {
                 without super-pixels, are sampled once a ray for their four slices. By the interval bound, \
                 cells are sampled once for up to 16.";
     widgets::row(ui, "z-levels", |ui| ui.checkbox(on, "Slopes and longer steps").on_hover_text(hint));
+}
+
+fn always_adaptive(ui: &mut Ui, on: &mut bool) {
+    let hint = "Adaptive sampling takes time to find out what may be left out. Where a part of the picture shows that \
+                this would take longer than it saves, all is sampled in full. With this on, it is done all the same: \
+                to see the classes of cells, or to compare.";
+    widgets::row(ui, "Adapt", |ui| ui.checkbox(on, "Even where it hardly pays").on_hover_text(hint));
 }
 
 fn relaxation(ui: &mut Ui, relaxation: &mut f64) {

@@ -58,6 +58,13 @@ pub(crate) struct Counters {
     pub z_adaptive: [u64; 4],
 }
 
+impl Counters {
+    /// Cells of all classes.
+    pub(crate) fn cells(&self) -> u64 {
+        self.full + self.mixed + self.super_pixel + self.transparent + self.z_adaptive.iter().sum::<u64>()
+    }
+}
+
 const COUNTER_WORDS: u64 = 16;
 
 impl Bundles {
@@ -84,18 +91,15 @@ impl Bundles {
         self.layer_depth.write(gpu, &depths)
     }
 
-    /// Says which of the tile's `bundles` the next submission takes: those whose `turns` it is; and
-    /// how they are sampled.
+    /// Says which bundles of a tile the next submission takes: those whose `turns` it is, where turn t is that
+    /// of bundle t·`stride` mod their number; and how they are sampled.
     pub(crate) fn write_chunk(
         &mut self,
         gpu: &Gpu,
         turns: Range<u64>,
-        bundles: u64,
+        stride: u32,
         sampling: &Sampling,
     ) -> Result<(), RenderError> {
-        // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
-        // its caches. A software adapter gives each thread a stretch of them beforehand.
-        let stride = if gpu.is_software() { spread(bundles) } else { 1 };
         let chunk = Chunk {
             first_turn: turns.start as u32,
             end_turn: turns.end as u32,
@@ -166,7 +170,7 @@ impl Bundles {
 
 /// A stride by which every stretch of turns visits bundles from all over the picture: near the golden
 /// ratio of their number, and coprime to it, so that every bundle has its turn once.
-fn spread(bundles: u64) -> u32 {
+pub(crate) fn spread(bundles: u64) -> u32 {
     // The product with a turn has to fit 32 bits.
     let limit = u64::from(u32::MAX) / bundles.max(1);
     let wanted = ((bundles as f64 * 0.618) as u64).clamp(1, limit);

@@ -7,7 +7,7 @@ mod range_tests;
 mod store;
 mod transfer;
 
-pub(crate) use bundle::{BUNDLE_BINDINGS, Bundles, Counters};
+pub(crate) use bundle::{BUNDLE_BINDINGS, Bundles, Counters, spread};
 pub(crate) use frame::{FrameUniform, TileUniform, pitch, pivot_depth, radius_floor};
 pub use store::ParticleStore;
 pub(crate) use transfer::TransferTables;

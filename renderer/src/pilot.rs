@@ -1,0 +1,90 @@
+//! Whether an analysis pays. What it costs is much the same for all scenes, what it saves is not; so a few
+//! bundles from all over a tile are analysed first, and their cells tell.
+//!
+//! Counts decide, and no clock, so that the same scene always gives the same picture.
+
+use crate::error::RenderError;
+use crate::picture::Picture;
+use crate::plan::Tile;
+use crate::renderer::{Progress, Renderer};
+use crate::stages::shared::{Counters, spread};
+use crate::tiles::Job;
+
+/// Bundles of a pilot: one in so many, and no more than so many. What is smaller than the least pilot is
+/// analysed in any case.
+const ONE_IN: u64 = 32;
+const MOST: u64 = 1024;
+const LEAST: u64 = 16;
+
+/// The share of cells that may be left to be sampled. On a software adapter an analysis costs about half as
+/// much as full sampling, and a cell of which parts are sampled nearly as much as a whole one: measured on
+/// lattices, a mixer and a dam break at tolerances of 0.001 to 0.03, the two take at most 1.07 times as long as
+/// full sampling where 0.31 of the cells are left, and longer where more are. A GPU passes by what a lane
+/// does not do, so there parts cost less.
+const MOST_LEFT_ON_SOFTWARE: f64 = 0.3;
+const MOST_LEFT: f64 = 0.8;
+
+/// How many bundles of a tile are looked at first; `None` where that is not worth it.
+fn pilot_of(bundles: u64) -> Option<u64> {
+    let count = (bundles / ONE_IN).min(MOST);
+    (count >= LEAST).then_some(count)
+}
+
+/// The share of the cells looked at that are left to be sampled; coarser levels take fewer samples.
+fn share_left(counters: &Counters) -> f64 {
+    let levels = (1..).zip(counters.z_adaptive).map(|(level, count)| count as f64 * 0.5_f64.powi(level));
+    let left = (counters.full + counters.mixed) as f64 + levels.sum::<f64>();
+    left / counters.cells().max(1) as f64
+}
+
+impl Renderer {
+    /// Analyses some bundles of `tile`, for whose analysis all is prepared. Bounds that it finds stay.
+    pub(crate) fn analysis_pays(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        progress: &mut Progress,
+        picture: &mut Picture,
+    ) -> Result<bool, RenderError> {
+        let bundles = tile.bundles();
+        let Some(count) = pilot_of(bundles).filter(|_| !job.scene.sampling.always_adaptive) else {
+            return Ok(true);
+        };
+        self.clear_counters();
+        let mut first = 0;
+        while first < count {
+            if progress(0.0).is_break() {
+                return Err(RenderError::Cancelled);
+            }
+            let end = count.min(first + self.adaptive_chunk(job, tile));
+            self.bundles.write_chunk(&self.gpu, first..end, spread(bundles), &job.scene.sampling)?;
+            self.analyse(job.scene, end - first, &mut picture.stats.milliseconds)?;
+            first = end;
+        }
+        let counters = self.bundles.read_counters(&self.gpu)?;
+        picture.stats.count_bounds(&counters);
+        let most = if self.gpu.is_software() { MOST_LEFT_ON_SOFTWARE } else { MOST_LEFT };
+        Ok(share_left(&counters) <= most)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_pictures_have_no_pilot_and_large_ones_a_short_one() {
+        let counts = [511, 512, 4096, 32_768, 4_000_000].map(pilot_of);
+        assert_eq!(counts, [None, Some(16), Some(128), Some(1024), Some(1024)]);
+    }
+
+    #[test]
+    fn what_is_left_is_a_share_of_all_cells_looked_at() {
+        let counters =
+            Counters { full: 10, mixed: 20, super_pixel: 60, transparent: 10, ..Counters::default() };
+        assert_eq!(share_left(&counters), 0.3);
+        let levels = Counters { z_adaptive: [4, 0, 0, 16], super_pixel: 80, ..Counters::default() };
+        assert_eq!(share_left(&levels), 0.03);
+        assert_eq!(share_left(&Counters::default()), 0.0);
+    }
+}
