@@ -2,64 +2,13 @@
 
 #[path = "support/files.rs"]
 mod files;
+#[path = "support/program.rs"]
+mod program;
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::OnceLock;
 
-use files::write_vtk;
-
-/// The program. Cargo builds binaries for the tests of their own package only, and this package has
-/// none: so the first test asks cargo for it, which is quick where it is built already.
-fn program() -> &'static Path {
-    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let mut build = Command::new(cargo);
-        build.args(["build", "-p", "sphcast", "--bin", "sphcast", "--message-format", "json"]);
-        if !cfg!(debug_assertions) {
-            build.arg("--release");
-        }
-        build.current_dir(env!("CARGO_MANIFEST_DIR")).stderr(Stdio::inherit());
-        let output = build.output().expect("cargo runs");
-        assert!(output.status.success(), "the program does not build");
-        let messages = String::from_utf8(output.stdout).unwrap();
-        let executable = messages.lines().find_map(|line| {
-            let message: serde_json::Value = serde_json::from_str(line).ok()?;
-            message["executable"].as_str().map(PathBuf::from)
-        });
-        executable.expect("cargo names the executable")
-    })
-}
-
-struct Outcome {
-    status: i32,
-    out: String,
-    err: String,
-}
-
-impl Outcome {
-    /// The one error line, without its `error: `.
-    fn error(&self) -> &str {
-        let errors: Vec<&str> = self.err.lines().filter_map(|line| line.strip_prefix("error: ")).collect();
-        let [error] = errors[..] else { panic!("not one error line: {}", self.err) };
-        error
-    }
-}
-
-fn sphcast(folder: &Path, arguments: &[&str]) -> Outcome {
-    let mut command = Command::new(program());
-    // A Wayland library complains on standard error where there is no such folder.
-    command.args(arguments).current_dir(folder).env("XDG_RUNTIME_DIR", folder);
-    let output = command.output().unwrap();
-    Outcome {
-        status: output.status.code().expect("not killed by a signal"),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
-}
+use program::{files_in, folder, program, sphcast};
 
 #[test]
 fn a_reader_who_leaves_is_no_error() {
@@ -70,28 +19,6 @@ fn a_reader_who_leaves_is_no_error() {
     drop(reading.stdout.take());
     let output = reading.wait_with_output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-}
-
-/// A folder with `run/frame_1.vtk` to `_3`, the second of them cut short, and `one.vtk`.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("run")).unwrap();
-    for number in 1..=3 {
-        write_vtk(&folder.path().join(format!("run/frame_{number}.vtk")), 20, true);
-    }
-    let second = folder.path().join("run/frame_2.vtk");
-    let whole = fs::read(&second).unwrap();
-    fs::write(second, &whole[..whole.len() / 2]).unwrap();
-    write_vtk(&folder.path().join("one.vtk"), 20, true);
-    folder
-}
-
-/// All files below `folder`, sorted.
-fn files_in(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 #[test]
@@ -317,94 +244,4 @@ fn a_picture_is_written_whole_or_not_at_all() {
     let unknown = sphcast(folder.path(), &["render", "one.vtk", "--quantity", "dye", "--out", "a.png"]);
     assert_eq!(unknown.error(), "one.vtk: there is no field `dye`; there are: concentration");
     assert_eq!(files_in(folder.path()), ["one.vtk", "run", "taken.png"]);
-}
-
-/// The rows of a CSV file without quotes, each a map from column to cell.
-fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
-    let text = fs::read_to_string(path).unwrap();
-    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let names = lines.next().unwrap();
-    let row = |cells: Vec<String>| {
-        assert_eq!(cells.len(), names.len(), "{cells:?}");
-        names.iter().cloned().zip(cells).collect()
-    };
-    lines.map(row).collect()
-}
-
-/// Whether a cell of a CSV says what its place in the JSON says.
-fn agree(cell: &str, value: &serde_json::Value) -> bool {
-    match value {
-        serde_json::Value::Null => cell.is_empty(),
-        serde_json::Value::String(text) => cell == text,
-        number => cell.parse::<f64>().ok() == number.as_f64(),
-    }
-}
-
-#[test]
-fn a_bench_writes_tables_that_agree_and_plots() {
-    let folder = folder();
-    let arguments =
-        ["bench", "demo", "--frames", "3..5", "--size", "256x176", "--rounds", "1", "--ablations"];
-    let more = ["--tolerances", "0.01", "--discretisation", "--out", "results"];
-    let bench = sphcast(folder.path(), &[&arguments[..], &more].concat());
-    assert_eq!(bench.status, 0);
-    // Only relaxation may break the tolerance.
-    assert!(bench.err.lines().all(|line| line.contains(" relaxed: the error is above")), "{}", bench.err);
-    let results = folder.path().join("results");
-    let plots = ["error-over-frames.svg", "time-against-error.svg", "time-over-frames.svg"];
-    assert_eq!(
-        files_in(&results),
-        [&["bench.json"], &plots[..1], &["frames.csv", "settings.csv"], &plots[1..]].concat()
-    );
-    for plot in plots {
-        let text = fs::read_to_string(results.join(plot)).unwrap();
-        assert!(text.starts_with("<svg") && text.ends_with("</svg>\n") && !text.contains("NaN"), "{plot}");
-    }
-
-    let json: serde_json::Value =
-        serde_json::from_slice(&fs::read(results.join("bench.json")).unwrap()).unwrap();
-    assert_eq!((&json["complete"], &json["frames"]), (&true.into(), &2.into()));
-    for (table, file, count) in [("settings", "settings.csv", 12), ("by_frame", "frames.csv", 24)] {
-        let rows = rows(&results.join(file));
-        assert_eq!((rows.len(), json[table].as_array().unwrap().len()), (count, count), "{file}");
-        for (row, value) in rows.iter().zip(json[table].as_array().unwrap()) {
-            for (column, cell) in row {
-                let value = column.split('.').fold(value, |value, key| &value[key]);
-                assert!(agree(cell, value), "{file}: {column}: {cell} and {value}");
-            }
-            // Every picture was rendered, from the grid to the last ray.
-            for time in ["milliseconds.grid.lower", "milliseconds.ray_cast.lower"] {
-                assert!(row[time].parse::<f64>().unwrap() > 0.0, "{file}: {time}");
-            }
-            assert!(bench.out.contains(&format!("\n{} ", row["setting"])), "{}", bench.out);
-        }
-    }
-    let [full, adaptive, ablation] = [0, 1, 2].map(|row| &json["settings"][row]);
-    assert_eq!(
-        [full, adaptive, ablation].map(|row| row["tolerance"].as_f64()),
-        [None, Some(0.01), Some(0.01)]
-    );
-    assert!(adaptive["error"]["max"].as_f64().unwrap() <= 0.01);
-    assert!(adaptive["milliseconds"]["analysis"]["lower"].as_f64().unwrap() > 0.0);
-    assert!(full["evaluations"]["inside"].as_f64().unwrap() > 0.0);
-    assert!(full["discretisation"]["max"].as_f64().unwrap() > 0.0);
-}
-
-#[test]
-fn a_bench_goes_on_after_a_bad_frame() {
-    let folder = folder();
-    let arguments =
-        ["bench", "run", "--size", "16x16", "--rounds", "1", "--tolerances", "0.01", "--out", "b"];
-    let bench = sphcast(folder.path(), &arguments);
-    assert_eq!(bench.status, 1);
-    assert_eq!(bench.error(), "run/frame_2.vtk: not measured: 1 of 3 frames failed");
-    assert!(bench.err.contains("warning: not complete: 2 of 3 frames"), "{}", bench.err);
-    let numbers: Vec<String> =
-        rows(&folder.path().join("b/frames.csv")).into_iter().map(|row| row["frame"].clone()).collect();
-    assert_eq!(numbers, ["0", "0", "2", "2"]);
-
-    let nothing = sphcast(folder.path(), &["bench", "run/frame_2.vtk", "--out", "nothing"]);
-    assert_eq!(nothing.status, 1);
-    assert!(nothing.error().starts_with("run/frame_2.vtk: ") && nothing.out.is_empty(), "{}", nothing.err);
-    assert!(files_in(&folder.path().join("nothing")).is_empty());
 }

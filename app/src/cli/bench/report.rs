@@ -82,6 +82,7 @@ impl Report {
             true => frames.to_string(),
             false => format!("{frames} of {frames_asked}"),
         };
+        let run = shortened(run);
         format!(
             "{run}; frames: {frames}; rounds: {rounds}; particles: {particles}; {width} x {height} pixels; {adapter}"
         )
@@ -90,6 +91,7 @@ impl Report {
     /// Writes the files. All are made before the first is written, so that there are all or none
     /// unless the disk fails.
     pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
+        let growth = plot::time_over_particles(self).map(|plot| ("time-over-particles.svg", plot));
         let files = [
             ("bench.json", format!("{}\n", serde_json::to_string_pretty(self)?)),
             ("settings.csv", csv::table(&self.settings)?),
@@ -98,9 +100,30 @@ impl Report {
             ("time-over-frames.svg", plot::time_over_frames(self)),
             ("time-against-error.svg", plot::time_against_error(self)),
         ];
-        for (name, text) in files {
+        for (name, text) in files.into_iter().chain(growth) {
             image_file::write_whole(&folder.join(name), text.as_bytes())?;
         }
         Ok(())
+    }
+}
+
+/// The names of a run's files, but not so many that a line could not hold them.
+fn shortened(run: &str) -> String {
+    const MOST: usize = 64;
+    match run.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &run[..end]),
+        None => run.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shortened;
+
+    #[test]
+    fn long_names_are_cut_at_a_character() {
+        assert_eq!(shortened("demo"), "demo");
+        assert_eq!(shortened(&"ä".repeat(64)), "ä".repeat(64));
+        assert_eq!(shortened(&"ä".repeat(65)), format!("{}…", "ä".repeat(64)));
     }
 }

@@ -1,4 +1,5 @@
-//! The figures: error and time over the frames (11 and 12 of the paper), and time against error.
+//! The figures: error and time over the frames (11 and 12 of the paper), time against error, and time over
+//! the number of particles.
 
 mod axis;
 mod chart;
@@ -40,6 +41,29 @@ pub fn time_over_frames(report: &Report) -> String {
         draw(&mut chart, &summary.setting, style, &rows, time);
     }
     chart.svg()
+}
+
+/// For frames that differ in their numbers of particles; else `None`.
+pub fn time_over_particles(report: &Report) -> Option<String> {
+    let time = |row: &FrameRow| row.summary.milliseconds.total.median;
+    let particles = || report.by_frame.iter().map(|row| row.particles as f64);
+    let [least, most] = [particles().fold(f64::MAX, f64::min), particles().fold(0.0, f64::max)];
+    if least < 1.0 || most < 2.0 * least {
+        return None;
+    }
+    let x = Axis::log("particles", particles(), 1.0, X_ENDS);
+    let y = Axis::from_zero("milliseconds", report.by_frame.iter().map(time), Y_ENDS);
+    let note = "grid, analysis, merge and ray cast, median over the rounds";
+    let mut chart = Chart::new(["Time over the number of particles", note, &report.title()], x, y);
+    for Series { summary, style, mut rows } in series(report) {
+        rows.sort_by_key(|row| row.particles);
+        let points: Vec<[f64; 2]> = rows.iter().map(|row| [row.particles as f64, time(row)]).collect();
+        chart.line(&points, style, points.len() <= DOTTED);
+        if let Some([_, last]) = points.last() {
+            chart.label(*last, &summary.setting, style, Key::Stroke);
+        }
+    }
+    Some(chart.svg())
 }
 
 pub fn time_against_error(report: &Report) -> String {
