@@ -36,7 +36,7 @@ fn agree(cell: &str, value: &serde_json::Value) -> bool {
 fn a_bench_writes_tables_that_agree_and_plots() {
     let folder = folder();
     let arguments =
-        ["bench", "demo", "--frames", "3..5", "--size", "256x176", "--rounds", "1", "--ablations"];
+        ["bench", "demo", "--frames", "3..5", "--size", "192x128", "--rounds", "1", "--ablations"];
     let more = ["--tolerances", "0.01", "--discretisation", "--out", "results"];
     let bench = sphcast(folder.path(), &[&arguments[..], &more].concat());
     assert_eq!(bench.status, 0);
@@ -56,7 +56,7 @@ fn a_bench_writes_tables_that_agree_and_plots() {
     let json: serde_json::Value =
         serde_json::from_slice(&fs::read(results.join("bench.json")).unwrap()).unwrap();
     assert_eq!((&json["complete"], &json["frames"]), (&true.into(), &2.into()));
-    for (table, file, count) in [("settings", "settings.csv", 13), ("by_frame", "frames.csv", 26)] {
+    for (table, file, count) in [("settings", "settings.csv", 14), ("by_frame", "frames.csv", 28)] {
         let rows = rows(&results.join(file));
         assert_eq!((rows.len(), json[table].as_array().unwrap().len()), (count, count), "{file}");
         for (row, value) in rows.iter().zip(json[table].as_array().unwrap()) {

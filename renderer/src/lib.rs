@@ -34,6 +34,7 @@
 
 #[doc(hidden)]
 pub mod bench;
+mod by_places;
 mod camera;
 mod cell_map;
 mod crowds;

@@ -69,6 +69,8 @@ pub enum Without {
     GreedFromBack,
     /// Bricks are sampled, or shown by one colour.
     Slopes,
+    /// Sampled in full, and each sample looks up its particles in a hash grid in world space.
+    CellsAlongRays,
 }
 
 /// As `bundle.wgsl` numbers them.

@@ -32,7 +32,8 @@ pub(crate) struct Job<'a> {
 /// that have been cast before, since the books of its rays are gone.
 fn budget_of(job: &Job, tile: &Tile) -> Option<f32> {
     let sampling = &job.scene.sampling;
-    let worthwhile = sampling.always_adaptive || analysis_may_pay(job.scene);
+    let has_cells = sampling.without != Without::CellsAlongRays;
+    let worthwhile = has_cells && (sampling.always_adaptive || analysis_may_pay(job.scene));
     sampling.budget().filter(|_| tile.first_layer == 0 && worthwhile)
 }
 
@@ -210,6 +211,9 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         self.cast.reserve(&self.gpu, tile)?;
+        if job.scene.sampling.without == Without::CellsAlongRays {
+            return self.cast_by_places(job, tile, size, progress, picture);
+        }
         let has_budget = budget_of(job, tile).is_some();
         if has_budget {
             self.prepare_analysis(job, tile, size)?;
@@ -351,7 +355,12 @@ impl Renderer {
         Ok(())
     }
 
-    fn fetch_tile(&self, tile: &Tile, size: GridSize, picture: &mut Picture) -> Result<(), RenderError> {
+    pub(crate) fn fetch_tile(
+        &self,
+        tile: &Tile,
+        size: GridSize,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let pixels = self.cast.pixels.read_back(&self.gpu, &mut encoder, tile.bundles() * 64);
         self.gpu.queue.submit([encoder.finish()]);

@@ -6,6 +6,7 @@ pub(crate) mod cast;
 pub(crate) mod grid;
 #[cfg(test)]
 mod layout;
+pub(crate) mod object_space;
 pub(crate) mod order;
 pub(crate) mod project;
 pub(crate) mod scan;

@@ -30,7 +30,7 @@ enum Change {
 }
 
 /// A line for each: its name, and what it changes.
-static ABLATIONS: [Ablation; 11] = [
+static ABLATIONS: [Ablation; 12] = [
     // All of them are: what they measure would be gone where full sampling is faster.
     Ablation { name: "always adaptive", change: Change::View(|_| ()) },
     Ablation { name: "extremes only", change: Change::Method(Without::Expansion) },
@@ -51,6 +51,7 @@ static ABLATIONS: [Ablation; 11] = [
     },
     Ablation { name: "paper's bound", change: Change::View(|view| by_the_paper(view, 0.0)) },
     Ablation { name: "paper's bound relaxed", change: Change::View(|view| by_the_paper(view, 1.0)) },
+    Ablation { name: "object space", change: Change::Method(Without::CellsAlongRays) },
 ];
 
 /// The paper's bound in place of ours.
