@@ -36,7 +36,7 @@ fn agree(cell: &str, value: &serde_json::Value) -> bool {
 fn a_bench_writes_tables_that_agree_and_plots() {
     let folder = folder();
     let arguments =
-        ["bench", "demo", "--frames", "3..5", "--size", "192x128", "--rounds", "1", "--ablations"];
+        ["bench", "demo", "--frames", "3..5", "--size", "256x176", "--rounds", "1", "--ablations"];
     let more = ["--tolerances", "0.01", "--discretisation", "--out", "results"];
     let bench = sphcast(folder.path(), &[&arguments[..], &more].concat());
     assert_eq!(bench.status, 0);
