@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 use reference::Particle;
 use reference::compare::compare;
 use reference::device::{mismatch, open, picture, prepare, render};
+use reference::guarantee::{calm, prepare_anyway};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey};
-use renderer::{GpuOptions, Kernel, RenderError, Renderer, TooLarge, TransferFunction};
+use renderer::{GpuOptions, Kernel, Picture, RenderError, Renderer, TooLarge, TransferFunction};
 
 /// Bytes that a tile may take: from a few tiles to a single bundle a tile.
 const MEMORY: [u64; 3] = [1 << 20, 256 << 10, 192 << 10];
@@ -58,6 +59,34 @@ fn tiled_pictures_match_the_twin() {
         let image = Image::from(&render(&mut renderer, &prepare(&scene)));
         let mismatch = mismatch(&scene, &image);
         assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
+    }
+}
+
+/// The bounds of all cells do not fit, and are made for some bundles after the other.
+#[test]
+fn little_memory_adapts_as_much_does() {
+    let scene = prepare_anyway(&calm(61, 97, 72));
+    let [mut much, mut little] = [open(&GpuOptions::default()), little(8 << 20)];
+    for tolerance in [0.01, 0.003] {
+        let mut scene = scene.clone();
+        scene.sampling.tolerance = Some(tolerance);
+        let mut found = [&mut much, &mut little].map(|renderer| {
+            let cells = renderer.render_with_cells(&scene, &mut |_| ControlFlow::Continue(()));
+            let (picture, map) = cells.unwrap_or_else(|error| panic!("{error}"));
+            let bundle = renderer.inspect_bundle(&scene, [6, 4], &mut |_| ControlFlow::Continue(()));
+            (picture, map, bundle.unwrap_or_else(|error| panic!("{error}")))
+        });
+        let [(picture, map, bundle), (tiled, tiled_map, tiled_bundle)] = &mut found;
+        let adapted = picture.stats.cells - picture.stats.cells_by_class.full;
+        assert!(adapted > 1000, "more cells than fit are adapted: {adapted}");
+        assert!(tiled.stats.gpu_bytes < picture.stats.gpu_bytes, "{} bytes", tiled.stats.gpu_bytes);
+        assert_eq!(tiled.pixels, picture.pixels);
+        // Where there is room, bounds stay from one picture to the next.
+        let cast = |picture: &Picture| picture.stats.evaluations.done - picture.stats.evaluations.bounds;
+        assert_eq!(cast(tiled), cast(picture));
+        assert_eq!(tiled_map, map);
+        assert_eq!(tiled_bundle.charged, bundle.charged);
+        assert_eq!(tiled_bundle.cells.len(), bundle.cells.len());
     }
 }
 

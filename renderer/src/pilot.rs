@@ -38,7 +38,8 @@ fn share_left(counters: &Counters) -> f64 {
 }
 
 impl Renderer {
-    /// Analyses some bundles of `tile`, for whose analysis all is prepared. Bounds that it finds stay.
+    /// Analyses some bundles of `tile`, for whose analysis all is prepared. Bounds that it finds stay, where there
+    /// is room for those of the whole tile.
     pub(crate) fn analysis_pays(
         &mut self,
         job: &Job,
@@ -60,6 +61,9 @@ impl Renderer {
             self.bundles.write_chunk(&self.gpu, first..end, spread(bundles), &job.scene.sampling)?;
             self.analyse(job.scene, end - first, &mut picture.stats.milliseconds)?;
             first = end;
+        }
+        if self.recycles_bounds {
+            self.forget_bounds();
         }
         let counters = self.bundles.read_counters(&self.gpu)?;
         picture.stats.count_bounds(&counters);

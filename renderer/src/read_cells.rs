@@ -74,7 +74,7 @@ impl Renderer {
         let tiles = plan::tiles(Renderer::bundles(scene), job.slices.count, job.limits);
         let [tile] = tiles[..] else { return Ok(None) };
         job.only_tile = job.resident;
-        Ok(self.is_held(&job, &tile).then_some((job, tile)))
+        Ok(self.is_held(&job).then_some((job, tile)))
     }
 
     /// Casts one bundle, a tile of its own or several behind one another.

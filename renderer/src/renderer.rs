@@ -59,6 +59,9 @@ pub struct Renderer {
     pub(crate) analysed: Option<Analysed>,
     /// Whether the last tile was sampled as an analysis chose, and not in full.
     pub(crate) adapted: bool,
+    /// Whether the bounds of its cells do not all fit the device, and those of a submission take the place of
+    /// those of the one before.
+    pub(crate) recycles_bounds: bool,
     last: Option<(Geometry, Shading, Picture)>,
 }
 
@@ -119,6 +122,7 @@ impl Renderer {
             sorted: None,
             analysed: None,
             adapted: false,
+            recycles_bounds: false,
             last: None,
             gpu,
         };

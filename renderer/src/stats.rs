@@ -35,6 +35,12 @@ pub struct Stats {
 }
 
 impl Stats {
+    /// Whether every sample was taken: nothing was allowed to be left out, or finding out would not have paid.
+    pub fn is_in_full(&self) -> bool {
+        let Evaluations { full, done, bounds, .. } = self.evaluations;
+        full + bounds == done
+    }
+
     /// Adds the evaluations of an analysis.
     pub(crate) fn count_bounds(&mut self, counters: &Counters) {
         self.evaluations.done += counters.bounds;

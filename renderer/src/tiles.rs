@@ -87,17 +87,17 @@ impl Renderer {
             },
         };
         self.sorted = job.only_tile.then(|| (job.geometry.clone(), size));
-        let limit = job.limits.filled_cells;
-        if budget_of(job, tile).is_some() && size.cells > limit {
-            return Ok(Err(TooLarge { what: "cells to analyse", needed: size.cells, limit }));
+        let (limit, in_a_bundle) = (job.limits.filled_cells, size.cells.min(tile.layers.into()));
+        if budget_of(job, tile).is_some() && in_a_bundle > limit {
+            return Ok(Err(TooLarge { what: "cells to analyse", needed: in_a_bundle, limit }));
         }
         Ok(Ok(size))
     }
 
     /// Whether the device still has all of the only tile of the last picture, which is that of `job`.
-    pub(crate) fn is_held(&self, job: &Job, tile: &Tile) -> bool {
+    pub(crate) fn is_held(&self, job: &Job) -> bool {
         let sorted = self.sorted.as_ref().is_some_and(|(geometry, _)| *geometry == job.geometry);
-        let known = budget_of(job, tile).is_none() || self.analysed == Some(Analysed::of(job));
+        let known = !self.adapted || self.analysed == Some(Analysed::of(job));
         job.only_tile && sorted && known
     }
 
@@ -242,7 +242,8 @@ impl Renderer {
             self.pace[usize::from(self.adapted)].learn(end - first, begin.elapsed());
             first = end;
         }
-        self.analysed = (has_budget && job.only_tile).then(|| Analysed::of(job));
+        let kept = has_budget && job.only_tile && !self.recycles_bounds;
+        self.analysed = kept.then(|| Analysed::of(job));
         self.fetch_tile(tile, size, picture)
     }
 
@@ -262,15 +263,21 @@ impl Renderer {
 
     /// Makes room for the bounds of `tile`, and forgets them where they hold for something else.
     fn prepare_analysis(&mut self, job: &Job, tile: &Tile, size: GridSize) -> Result<(), RenderError> {
-        self.adapt.reserve(&self.gpu, tile, size.cells, job.scene.sampling.bound)?;
+        let capacity = size.cells.min(job.limits.filled_cells);
+        self.recycles_bounds = size.cells > capacity;
+        self.adapt.reserve(&self.gpu, tile, capacity, job.scene.sampling.bound)?;
         self.adapt.prepare(&self.gpu, job.scene.kernel, job.scene.sampling.without);
         let known = self.analysed.take().filter(|known| job.only_tile && *known == Analysed::of(job));
         if known.is_none() {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            self.adapt.clear(&mut encoder);
-            self.gpu.queue.submit([encoder.finish()]);
+            self.forget_bounds();
         }
         Ok(())
+    }
+
+    pub(crate) fn forget_bounds(&self) {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.adapt.clear(&mut encoder);
+        self.gpu.queue.submit([encoder.finish()]);
     }
 
     fn cast_fully(
@@ -296,6 +303,9 @@ impl Renderer {
     ) -> Result<Work, RenderError> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.adapt.clear_work(&mut encoder);
+        if self.recycles_bounds {
+            self.adapt.clear_slots(&mut encoder);
+        }
         let shared = self.shared_bindings();
         self.timing.pass(&mut encoder, "analysis", |pass| {
             self.adapt.record(&self.gpu, pass, scene, &shared, bundles);

@@ -53,8 +53,29 @@ pub fn show(
             }
         }
     }
+    if matches!(session.overlay.kind, Kind::Classes | Kind::Predicted) {
+        adapt_anyway(ui, session);
+    }
     ui.add_space(4.0);
     cell_classes::show(ui, session);
+}
+
+/// Where adapting does not pay, all cells are alike: a way to see them adapted all the same.
+fn adapt_anyway(ui: &mut Ui, session: &mut Session) {
+    let given_up = session.picture.as_ref().is_some_and(|picture| {
+        picture.sampling.tolerance.is_some()
+            && !picture.sampling.always_adaptive
+            && picture.stats.is_in_full()
+    });
+    if given_up {
+        let text = "Sampled in full: to adapt this view would take longer than it saves.";
+        ui.label(RichText::new(text).small().color(theme::MUTED));
+        let button = ui.button("Adapt it anyway").on_hover_text("Sampling: Adapt, even where it hardly pays");
+        Areas::mark(ui, "adapt anyway", button.rect);
+        if button.clicked() {
+            session.view.sampling.always_adaptive = true;
+        }
+    }
 }
 
 fn depth(ui: &mut Ui, overlay: &mut Overlay, stats: Option<&Stats>) {

@@ -12,7 +12,7 @@ pub fn show(ui: &mut Ui, session: &Session) {
     let stats = &picture.stats;
     ui.scope(|ui| {
         let evaluations = &stats.evaluations;
-        let in_full = evaluations.full + evaluations.bounds == evaluations.done;
+        let in_full = stats.is_in_full();
         let predicted = match picture.sampling.tolerance {
             Some(tolerance) if !in_full => format!("{} of {tolerance}", plain(stats.predicted_error)),
             _ => "0, sampled in full".into(),

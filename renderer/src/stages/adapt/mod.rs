@@ -99,8 +99,14 @@ impl Adapt {
 
     /// Forgets the bounds of all bricks.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.clear_buffer(self.slots_taken.raw(), 0, None);
+        self.clear_slots(encoder);
         encoder.clear_buffer(self.cell_values.raw(), 0, None);
+    }
+
+    /// Lets the bounds of other bricks take the places of those that are known: no cell of theirs is to be
+    /// looked at again.
+    pub(crate) fn clear_slots(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(self.slots_taken.raw(), 0, None);
     }
 
     /// Forgets the work of the submission before.
