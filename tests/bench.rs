@@ -71,11 +71,13 @@ fn a_bench_writes_tables_that_agree_and_plots() {
             assert!(bench.out.contains(&format!("\n{} ", row["setting"])), "{}", bench.out);
         }
     }
-    let [full, adaptive, ablation] = [0, 1, 2].map(|row| &json["settings"][row]);
+    let [full, object_space, adaptive, ablation] = [0, 1, 2, 3].map(|row| &json["settings"][row]);
     assert_eq!(
-        [full, adaptive, ablation].map(|row| row["tolerance"].as_f64()),
-        [None, Some(0.01), Some(0.01)]
+        [full, object_space, adaptive, ablation].map(|row| row["tolerance"].as_f64()),
+        [None, None, Some(0.01), Some(0.01)]
     );
+    assert!(object_space["evaluations"]["share"].as_f64().unwrap() > 2.0, "many more are in vain");
+    assert!(object_space["error"]["mean"].as_f64().unwrap() < 1e-5);
     assert!(adaptive["error"]["max"].as_f64().unwrap() <= 0.01);
     assert!(adaptive["milliseconds"]["analysis"]["lower"].as_f64().unwrap() > 0.0);
     assert!(full["evaluations"]["inside"].as_f64().unwrap() > 0.0);

@@ -30,7 +30,7 @@ enum Change {
 }
 
 /// A line for each: its name, and what it changes.
-static ABLATIONS: [Ablation; 12] = [
+static ABLATIONS: [Ablation; 11] = [
     // All of them are: what they measure would be gone where full sampling is faster.
     Ablation { name: "always adaptive", change: Change::View(|_| ()) },
     Ablation { name: "extremes only", change: Change::Method(Without::Expansion) },
@@ -51,8 +51,11 @@ static ABLATIONS: [Ablation; 12] = [
     },
     Ablation { name: "paper's bound", change: Change::View(|view| by_the_paper(view, 0.0)) },
     Ablation { name: "paper's bound relaxed", change: Change::View(|view| by_the_paper(view, 1.0)) },
-    Ablation { name: "object space", change: Change::Method(Without::CellsAlongRays) },
 ];
+
+/// Full sampling as it would be without cells along the rays: no tolerance makes a difference to it.
+static OBJECT_SPACE: Ablation =
+    Ablation { name: "object space", change: Change::Method(Without::CellsAlongRays) };
 
 /// The paper's bound in place of ours.
 fn by_the_paper(view: &mut View, relaxation: f64) {
@@ -65,6 +68,10 @@ impl Setting {
     /// its ablations.
     pub fn list(tolerances: &[Tolerance], with_ablations: bool) -> Vec<Setting> {
         let mut settings = vec![Setting { name: "full".to_owned(), tolerance: None, ablation: None }];
+        if with_ablations {
+            let ablation = Some(&OBJECT_SPACE);
+            settings.push(Setting { name: OBJECT_SPACE.name.to_owned(), tolerance: None, ablation });
+        }
         let mut seen = Vec::new();
         for tolerance in tolerances.iter().filter_map(|tolerance| tolerance.0) {
             if seen.contains(&tolerance) {
@@ -115,15 +122,15 @@ mod tests {
     #[test]
     fn full_sampling_comes_first_and_everything_once() {
         assert_eq!(names(&[Some(0.01), None, Some(0.001), Some(0.01)], false), ["full", "0.01", "0.001"]);
-        assert_eq!(names(&[None], true), ["full"]);
-        assert_eq!(names(&[Some(0.01)], true).len(), 2 + ABLATIONS.len());
+        assert_eq!(names(&[None], true), ["full", "object space"]);
+        assert_eq!(names(&[Some(0.01)], true).len(), 3 + ABLATIONS.len());
     }
 
     #[test]
     fn every_ablation_changes_how_the_view_is_sampled_and_nothing_else() {
         let view = View::default();
         let settings = Setting::list(&[Tolerance(Some(0.25))], true);
-        for setting in settings.iter().skip(2).filter(|setting| setting.without() == Without::Nothing) {
+        for setting in settings.iter().skip(3).filter(|setting| setting.without() == Without::Nothing) {
             let mut changed = setting.view(&view);
             let adaptive = View { sampling: changed.sampling, ..view.clone() };
             assert_eq!(changed, adaptive, "{}", setting.name);
@@ -139,7 +146,8 @@ mod tests {
         let mut parts: Vec<Without> = settings.iter().map(Setting::without).collect();
         parts.retain(|part| *part != Without::Nothing);
         let [front, back] = [Without::GreedFromFront, Without::GreedFromBack];
-        assert_eq!(parts, [Without::Expansion, Without::Coverage, Without::Slopes, front, back]);
-        assert_eq!(settings[1].without(), Without::Nothing);
+        let [cells, slopes] = [Without::CellsAlongRays, Without::Slopes];
+        assert_eq!(parts, [cells, Without::Expansion, Without::Coverage, slopes, front, back]);
+        assert_eq!(settings[2].without(), Without::Nothing);
     }
 }

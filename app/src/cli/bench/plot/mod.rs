@@ -33,7 +33,7 @@ pub fn error_over_frames(report: &Report) -> String {
 
 pub fn time_over_frames(report: &Report) -> String {
     let time = |summary: &Summary| summary.milliseconds.total.median;
-    let values = report.by_frame.iter().map(|row| time(&row.summary));
+    let values = report.by_frame.iter().map(|row| &row.summary).filter(has_place).map(time);
     let y = Axis::from_zero("milliseconds", values, Y_ENDS);
     let note = "grid, analysis, merge and ray cast, median over the rounds";
     let mut chart = Chart::new(["Time over the frames", note, &report.title()], frame_axis(report), y);
@@ -52,7 +52,8 @@ pub fn time_over_particles(report: &Report) -> Option<String> {
         return None;
     }
     let x = Axis::log("particles", particles(), 1.0, X_ENDS);
-    let y = Axis::from_zero("milliseconds", report.by_frame.iter().map(time), Y_ENDS);
+    let times = report.by_frame.iter().filter(|row| has_place(&&row.summary)).map(time);
+    let y = Axis::from_zero("milliseconds", times, Y_ENDS);
     let note = "grid, analysis, merge and ray cast, median over the rounds";
     let mut chart = Chart::new(["Time over the number of particles", note, &report.title()], x, y);
     for Series { summary, style, mut rows } in series(report) {
@@ -68,7 +69,7 @@ pub fn time_over_particles(report: &Report) -> Option<String> {
 
 pub fn time_against_error(report: &Report) -> String {
     let x = error_axis("largest error over all frames", report.settings.iter(), X_ENDS);
-    let times = report.settings.iter().map(|summary| summary.milliseconds.total.upper);
+    let times = report.settings.iter().filter(has_place).map(|summary| summary.milliseconds.total.upper);
     let y = Axis::from_zero("milliseconds", times, Y_ENDS);
     let note = "dot: median time, with its quartiles; dotted: from the error up to the tolerance";
     let mut chart = Chart::new(["Time against error", note, &report.title()], x, y);
@@ -101,6 +102,11 @@ struct Series<'a> {
     rows: Vec<&'a FrameRow>,
 }
 
+/// Whether a setting is drawn. Another way to sample in full takes so long that no other would be told apart.
+fn has_place(summary: &&Summary) -> bool {
+    summary.tolerance.is_some() || summary.ablation.is_none()
+}
+
 fn series(report: &Report) -> Vec<Series<'_>> {
     // Where a tolerance comes, its ablations follow.
     let (mut tolerances, mut ablations) = (0, 0);
@@ -123,6 +129,7 @@ fn series(report: &Report) -> Vec<Series<'_>> {
     let settings = report.settings.len();
     styles
         .into_iter()
+        .filter(|(index, _)| has_place(&&report.settings[*index]))
         .map(|(index, style)| Series {
             summary: &report.settings[index],
             style,
