@@ -17,10 +17,14 @@ fn a_tolerance_is_set_and_its_error_measured() {
     }
     window.rest();
 
+    // On a software adapter it would not pay to adapt this view.
+    window.click("adapt", [0.1, 0.5]);
+    window.wait_for_full_picture();
     // Logarithmic, from 10⁻⁴ to 10⁻¹: two thirds of the way is about 10⁻².
     window.drag("tolerance", [0.53, 0.5], [0.65, 0.5]);
     window.wait_for_full_picture();
     let (_, view) = window.save(folder.path());
+    assert!(view.sampling.always_adaptive);
     let tolerance = view.sampling.tolerance.unwrap();
     assert!((0.008..0.0125).contains(&tolerance), "{tolerance}");
 

@@ -71,7 +71,7 @@ fn adapt_anyway(ui: &mut Ui, session: &mut Session) {
         let text = "Sampled in full: to adapt this view would take longer than it saves.";
         ui.label(RichText::new(text).small().color(theme::MUTED));
         let button = ui.button("Adapt it anyway").on_hover_text("Sampling: Adapt, even where it hardly pays");
-        Areas::mark(ui, "adapt anyway", button.rect);
+        Areas::mark(ui, "adapt-anyway", button.rect);
         if button.clicked() {
             session.view.sampling.always_adaptive = true;
         }

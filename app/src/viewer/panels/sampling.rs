@@ -113,7 +113,10 @@ fn always_adaptive(ui: &mut Ui, on: &mut bool) {
     let hint = "Adaptive sampling takes time to find out what may be left out. Where a part of the picture shows that \
                 this would take longer than it saves, all is sampled in full. With this on, it is done all the same: \
                 to see the classes of cells, or to compare.";
-    widgets::row(ui, "Adapt", |ui| ui.checkbox(on, "Even where it hardly pays").on_hover_text(hint));
+    widgets::row(ui, "Adapt", |ui| {
+        let checkbox = ui.checkbox(on, "Even where it hardly pays").on_hover_text(hint);
+        Areas::mark(ui, "adapt", checkbox.rect);
+    });
 }
 
 fn relaxation(ui: &mut Ui, relaxation: &mut f64) {
