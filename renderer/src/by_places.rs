@@ -1,41 +1,70 @@
-//! A tile sampled in full by a hash grid in world space, for measurements.
+//! A picture sampled in full by a hash grid in world space, for measurements.
 
 use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::error::{RenderError, TooLarge};
+use crate::camera::CELL_SLICES;
+use crate::error::RenderError;
 use crate::pace::Pace;
 use crate::picture::Picture;
-use crate::plan::Tile;
+use crate::plan::{self, Tile};
 use crate::renderer::{GridSize, Progress, Renderer};
 use crate::stages::object_space::{HashGrid, ObjectSpace};
 use crate::stages::shared::{TileUniform, pivot_depth, radius_floor, spread};
 use crate::tiles::Job;
 
-/// Particles that a ray may look at in one submission: software adapters end loops after 65,535 rounds.
-const ROUNDS: u32 = 30_000;
-/// Samples of a ray in a layer.
-const SLICES: u32 = 16;
+/// Rounds of loops that a ray may take in one submission: software adapters end them after 65,535.
+const ROUNDS: u32 = 60_000;
+/// Rounds that a sample takes beside those for its particles, with plenty to spare for the search of its cell.
+const ROUNDS_OF_SAMPLE: u32 = 16;
 
 impl Renderer {
-    /// Casts the rays of `tile`. The time for cells along the rays, which are not looked at, is not counted.
-    pub(crate) fn cast_by_places(
+    /// Renders without a grid of cells; the time for the hash grid counts in place of theirs.
+    pub(crate) fn render_by_places(
         &mut self,
         job: &Job,
-        tile: &Tile,
-        size: GridSize,
         progress: &mut Progress,
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         let begin = Instant::now();
         let grid = HashGrid::new(&balls(job)?);
-        picture.stats.milliseconds.grid = begin.elapsed().as_secs_f64() * 1e3;
         let layers = layers_at_once(&grid)?;
         let camera = &job.scene.camera;
         let pivot = job.scene.particles.to_device(camera.eye + pivot_depth(camera) * camera.forward);
         let object_space = ObjectSpace::new(&self.gpu, job.scene.kernel, &grid, pivot)?;
+        let built = begin.elapsed().as_secs_f64() * 1e3;
+        // What is known of cells is written over.
+        self.forget();
+        self.adapted = false;
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.timing.pass(&mut encoder, "grid", |pass| {
+            self.project.record(&self.gpu, pass, &self.frame, &self.store);
+        });
+        self.submit(encoder, &mut picture.stats.milliseconds)?;
+        picture.stats.milliseconds.grid += built;
+        // Of a single layer, so that tiles are as large as their pixels allow.
+        let tiles = plan::tiles(Renderer::bundles(job.scene), CELL_SLICES.into(), job.limits);
+        for (number, tile) in tiles.iter().enumerate() {
+            let whole = Tile { layers: job.slices.layers() as u32, ..*tile };
+            let mut progress = |part: f32| progress((number as f32 + part) / tiles.len() as f32);
+            self.cast_by_places(job, &whole, &object_space, layers, &mut progress, picture)?;
+        }
+        Ok(())
+    }
+
+    /// Casts the rays of `tile`, through so many layers a submission.
+    fn cast_by_places(
+        &mut self,
+        job: &Job,
+        tile: &Tile,
+        object_space: &ObjectSpace,
+        layers: u32,
+        progress: &mut Progress,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
+        self.cast.reserve(&self.gpu, tile)?;
         self.clear_counters();
         let bundles = tile.bundles();
         let mut pace = Pace::new(self.gpu.is_software());
@@ -44,13 +73,11 @@ impl Renderer {
             let begin = Instant::now();
             let end = bundles.min(first + pace.bundles());
             self.bundles.write_chunk(&self.gpu, first..end, spread(bundles), &job.scene.sampling)?;
-            let mut layer = 0;
-            while layer < tile.layers {
+            for layer in (0..tile.layers).step_by(layers as usize) {
                 if progress(first as f32 / bundles as f32).is_break() {
                     return Err(RenderError::Cancelled);
                 }
-                let some = layers.min(tile.layers - layer);
-                let part = Tile { first_layer: tile.first_layer + layer, layers: some, ..*tile };
+                let part = Tile { first_layer: layer, layers: layers.min(tile.layers - layer), ..*tile };
                 self.tile.write(&self.gpu, &[TileUniform::new(&part, 0)])?;
                 let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
                 let shared = self.shared_bindings();
@@ -59,15 +86,11 @@ impl Renderer {
                 });
                 drop(shared);
                 self.submit(encoder, &mut picture.stats.milliseconds)?;
-                layer += some;
             }
             pace.learn(end - first, begin.elapsed());
             first = end;
         }
-        self.adapted = false;
-        // What is known of the tile is written over.
-        self.forget();
-        self.fetch_tile(tile, size, picture)
+        self.fetch_tile(tile, GridSize { pairs: 0, cells: 0 }, picture)
     }
 }
 
@@ -75,8 +98,8 @@ impl Renderer {
 fn balls(job: &Job) -> Result<Vec<(DVec3, f64)>, RenderError> {
     let particles = &job.scene.particles;
     if !job.resident {
-        let (needed, limit) = (particles.len() as u64, job.limits.particles);
-        return Err(TooLarge { what: "particles", needed, limit }.into());
+        let why = "its memory does not hold all particles at once, as sampling in object space needs them";
+        return Err(RenderError::Device(why.to_owned()));
     }
     let (camera, unit) = (&job.scene.camera, particles.unit());
     let (eye, [near, far]) = (particles.to_device(camera.eye), [camera.near / unit, camera.far / unit]);
@@ -87,11 +110,11 @@ fn balls(job: &Job) -> Result<Vec<(DVec3, f64)>, RenderError> {
 
 /// Layers of slices whose samples a ray may take in one submission.
 fn layers_at_once(grid: &HashGrid) -> Result<u32, RenderError> {
-    let needed = u64::from(SLICES) * u64::from(grid.largest);
-    match ROUNDS / (SLICES * grid.largest.max(1)).max(1) {
-        0 if needed > 65_000 => {
-            Err(TooLarge { what: "particles near each sample of a ray", needed, limit: 65_000 }.into())
-        }
-        layers => Ok(layers.max(1)),
+    match ROUNDS / CELL_SLICES / (grid.largest + ROUNDS_OF_SAMPLE) {
+        0 => Err(RenderError::Device(format!(
+            "{} particles in one cell of a hash grid are too many for sampling in object space",
+            grid.largest
+        ))),
+        layers => Ok(layers),
     }
 }

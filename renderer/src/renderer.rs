@@ -11,7 +11,7 @@ use crate::kernel::Kernel;
 use crate::pace::Pace;
 use crate::picture::Picture;
 use crate::plan::{self, Tile, TileLimits};
-use crate::sampling::Sampling;
+use crate::sampling::{Sampling, Without};
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
 use crate::stages::cast::Cast;
@@ -187,33 +187,17 @@ impl Renderer {
         &mut self,
         scene: &Scene,
         progress: &mut Progress,
-        mut cells_wanted: Option<&mut CellMap>,
+        cells_wanted: Option<&mut CellMap>,
     ) -> Result<Picture, RenderError> {
         let begin = Instant::now();
         let mut job = self.begin(scene)?;
         let mut picture = self.blank(scene, &job.slices);
         picture.stats.milliseconds.upload = begin.elapsed().as_secs_f64() * 1e3;
 
-        let mut todo = plan::tiles(Renderer::bundles(scene), job.slices.count, job.limits);
-        let cells: u64 = todo.iter().map(Tile::cells).sum();
-        let mut cells_done = 0;
-        todo.reverse();
-        while let Some(tile) = todo.pop() {
-            job.only_tile = job.resident && tile.cells() == cells;
-            let mut tile_progress =
-                |part: f32| progress((cells_done as f32 + part * tile.cells() as f32) / cells as f32);
-            match self.prepare_tile(&job, &tile, &mut picture.stats.milliseconds)? {
-                Ok(size) => {
-                    picture.stats.pairs += size.pairs;
-                    picture.stats.cells += size.cells;
-                    self.cast_tile(&job, &tile, size, &mut tile_progress, &mut picture)?;
-                    if let Some(map) = &mut cells_wanted {
-                        self.read_tile(&tile, map)?;
-                    }
-                    cells_done += tile.cells();
-                }
-                Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
-            }
+        if scene.sampling.without == Without::CellsAlongRays {
+            self.render_by_places(&job, progress, &mut picture)?;
+        } else {
+            self.render_tiles(&mut job, progress, &mut picture, cells_wanted)?;
         }
         let milliseconds = &mut picture.stats.milliseconds;
         milliseconds.total =
@@ -225,6 +209,38 @@ impl Renderer {
             + self.adapt.bytes()
             + self.cast.bytes();
         Ok(picture)
+    }
+
+    /// Renders tile by tile, and cuts those that are too large.
+    fn render_tiles(
+        &mut self,
+        job: &mut Job,
+        progress: &mut Progress,
+        picture: &mut Picture,
+        mut cells_wanted: Option<&mut CellMap>,
+    ) -> Result<(), RenderError> {
+        let mut todo = plan::tiles(Renderer::bundles(job.scene), job.slices.count, job.limits);
+        let cells: u64 = todo.iter().map(Tile::cells).sum();
+        let mut cells_done = 0;
+        todo.reverse();
+        while let Some(tile) = todo.pop() {
+            job.only_tile = job.resident && tile.cells() == cells;
+            let mut tile_progress =
+                |part: f32| progress((cells_done as f32 + part * tile.cells() as f32) / cells as f32);
+            match self.prepare_tile(job, &tile, &mut picture.stats.milliseconds)? {
+                Ok(size) => {
+                    picture.stats.pairs += size.pairs;
+                    picture.stats.cells += size.cells;
+                    self.cast_tile(job, &tile, size, &mut tile_progress, picture)?;
+                    if let Some(map) = &mut cells_wanted {
+                        self.read_tile(&tile, map)?;
+                    }
+                    cells_done += tile.cells();
+                }
+                Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
+            }
+        }
+        Ok(())
     }
 
     /// Brings to the device what all tiles share.

@@ -32,8 +32,7 @@ pub(crate) struct Job<'a> {
 /// that have been cast before, since the books of its rays are gone.
 fn budget_of(job: &Job, tile: &Tile) -> Option<f32> {
     let sampling = &job.scene.sampling;
-    let has_cells = sampling.without != Without::CellsAlongRays;
-    let worthwhile = has_cells && (sampling.always_adaptive || analysis_may_pay(job.scene));
+    let worthwhile = sampling.always_adaptive || analysis_may_pay(job.scene);
     sampling.budget().filter(|_| tile.first_layer == 0 && worthwhile)
 }
 
@@ -211,9 +210,6 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         self.cast.reserve(&self.gpu, tile)?;
-        if job.scene.sampling.without == Without::CellsAlongRays {
-            return self.cast_by_places(job, tile, size, progress, picture);
-        }
         let has_budget = budget_of(job, tile).is_some();
         if has_budget {
             self.prepare_analysis(job, tile, size)?;

@@ -21,14 +21,15 @@ fn an_overlay_is_laid_over_the_picture_and_a_pixel_looked_into() {
     let plain = window.desktop().resting_pixels(middle);
 
     window.key("c");
-    let found = window.wait_for("cells");
+    let mut found = window.wait_for("cells");
     window.wait_for_area("depth");
-    // On a software adapter it would not pay to adapt this view.
-    assert!(found.starts_with("CellClasses") && found.contains("mixed: 0,"), "{found}");
-    window.wait_for_area("adapt-anyway");
-    window.click("adapt-anyway", [0.5, 0.5]);
-    window.wait_for_full_picture();
-    let found = window.wait_for("cells");
+    // On a software adapter it does not pay to adapt this view.
+    if found.contains("mixed: 0,") {
+        window.wait_for_area("adapt-anyway");
+        window.click("adapt-anyway", [0.5, 0.5]);
+        window.wait_for_full_picture();
+        found = window.wait_for("cells");
+    }
     assert!(found.starts_with("CellClasses") && !found.contains("mixed: 0,"), "{found}");
     let classes = window.desktop().resting_pixels(middle);
     assert_ne!(plain, classes);

@@ -17,7 +17,7 @@ fn a_tolerance_is_set_and_its_error_measured() {
     }
     window.rest();
 
-    // On a software adapter it would not pay to adapt this view.
+    // On a software adapter it does not pay to adapt this view.
     window.click("adapt", [0.1, 0.5]);
     window.wait_for_full_picture();
     // Logarithmic, from 10⁻⁴ to 10⁻¹: two thirds of the way is about 10⁻².

@@ -35,7 +35,8 @@ use settings::Setting;
 /// Measure run time against error: full sampling against adaptive sampling, over all frames.
 ///
 /// Tables go to standard output; with --out also to bench.json, settings.csv and frames.csv, with
-/// plots of time and error over the frames and of time against error.
+/// plots of time and error over the frames, of time against error and, where the frames differ in
+/// size, of time over the number of particles.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Times are medians over all frames and rounds. A speed-up is the median of ratios, each within one frame and \

@@ -13,7 +13,7 @@ pub(super) struct Slot {
     pub end: u32,
 }
 
-/// Cells as large as a mean support radius, each with the particles whose supports meet it.
+/// Cells as large as a mean support radius or larger, each with the particles whose supports meet it.
 pub(crate) struct HashGrid {
     /// First corner, and side of a cell.
     pub corner: DVec3,
@@ -27,6 +27,8 @@ pub(crate) struct HashGrid {
 
 /// A cell has a number below this: it is one less than its key.
 const MOST_CELLS: f64 = u32::MAX as f64;
+/// Cells that a particle meets on average, at most: those much larger than most others meet many.
+const MOST_MET: f64 = 100.0;
 /// Single precision may put a sample into the next cell: supports are taken to be larger by this share.
 const SLACK: f64 = 1e-3;
 
@@ -42,7 +44,9 @@ impl HashGrid {
         let extent = (high - low).max(DVec3::splat(mean));
         let mut side = mean;
         let counts = |side: f64| (extent / side).floor() + 1.0;
-        while counts(side).element_product() >= MOST_CELLS {
+        let met =
+            |side: f64| balls.iter().map(|(_, radius)| (2.0 * radius / side + 2.0).powi(3)).sum::<f64>();
+        while counts(side).element_product() >= MOST_CELLS || met(side) > MOST_MET * balls.len() as f64 {
             side *= 2.0;
         }
         let count = counts(side).to_array().map(|count| count as u32);
@@ -134,6 +138,18 @@ mod tests {
             }
         }
         assert!(reached > 500, "{reached}");
+    }
+
+    #[test]
+    fn a_giant_among_dwarfs_does_not_meet_every_cell_of_its_size() {
+        let place = |i: i32| DVec3::splat(f64::from(i));
+        let mut balls: Vec<(DVec3, f64)> = (0..1000).map(|i| (place(i), 1e-3)).collect();
+        balls.push((DVec3::ZERO, 1e6));
+        let grid = HashGrid::new(&balls);
+        assert!(grid.references.len() <= 100 * balls.len(), "{}", grid.references.len());
+        assert!(
+            grid.particles_at(place(500)).contains(&500) && grid.particles_at(place(500)).contains(&1000)
+        );
     }
 
     #[test]
