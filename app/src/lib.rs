@@ -6,6 +6,7 @@ pub mod frames;
 pub mod image_file;
 mod io_error;
 mod overlay;
+pub mod places;
 pub mod scene;
 pub mod view_file;
 pub mod viewer;

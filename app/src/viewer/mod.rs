@@ -19,6 +19,8 @@ mod messages;
 mod orbit_camera;
 mod overlay;
 mod pace;
+#[cfg(test)]
+mod panel_tests;
 mod panels;
 mod picture_view;
 mod playback;

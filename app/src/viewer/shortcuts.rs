@@ -56,7 +56,7 @@ const fn key(
 }
 
 /// Every shortcut. Those with more modifiers come first: a key with Ctrl is also that key.
-pub const SHORTCUTS: [Shortcut; 30] = [
+pub const SHORTCUTS: &[Shortcut] = &[
     key("Files", CTRL, Key::O, Action::OpenFiles, "Open files"),
     key("Files", CTRL_SHIFT, Key::O, Action::OpenFolder, "Open a folder as a sequence"),
     key("Files", CTRL, Key::L, Action::LoadView, "Load a view"),

@@ -16,18 +16,17 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     let label = shown.clone().unwrap_or_else(|| "none in this file".into());
     widgets::row(ui, "Field", |ui| {
         let width = ui.available_width();
-        egui::ComboBox::from_id_salt("quantity").width(width).selected_text(label).truncate().show_ui(
-            ui,
-            |ui| {
-                for name in names {
-                    let chosen = shown.as_deref() == Some(name.as_str());
-                    let text = describe(&name, &frame);
-                    if ui.selectable_label(chosen, text).clicked() && !chosen {
-                        choose(session, name);
-                    }
+        let menu = egui::ComboBox::from_id_salt("quantity").width(width).selected_text(label).truncate();
+        let menu = menu.show_ui(ui, |ui| {
+            for name in names {
+                let chosen = shown.as_deref() == Some(name.as_str());
+                let text = describe(&name, &frame);
+                if ui.selectable_label(chosen, text).clicked() && !chosen {
+                    choose(session, name);
                 }
-            },
-        );
+            }
+        });
+        menu.response.accessible_name("Field");
     });
     range(ui, session);
 }
@@ -62,9 +61,10 @@ fn range(ui: &mut Ui, session: &mut Session) {
         let gaps = 2.0 * ui.spacing().item_spacing.x;
         let width = (ui.available_width() - BETWEEN - gaps) / 2.0;
         let size = egui::vec2(width, ui.spacing().interact_size.y);
-        let changed = ui.add_sized(size, widgets::number(&mut low, scale)).changed();
+        let lower = ui.add_sized(size, widgets::number(&mut low, scale)).accessible_name("Lowest value");
         ui.add_sized([BETWEEN, size.y], egui::Label::new("to"));
-        let changed = ui.add_sized(size, widgets::number(&mut high, scale)).changed() || changed;
+        let upper = ui.add_sized(size, widgets::number(&mut high, scale)).accessible_name("Highest value");
+        let changed = lower.changed() || upper.changed();
         if changed && low.is_finite() && high.is_finite() {
             session.range_source = RangeSource::Fixed;
             // A range is ascending; whichever end was dragged past the other carries it along.
