@@ -7,6 +7,7 @@ pub mod image_file;
 mod io_error;
 mod overlay;
 pub mod places;
+pub mod projection;
 pub mod scene;
 pub mod view_file;
 pub mod viewer;

@@ -5,6 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec2, DVec3};
 use renderer::{Bounds, CameraView};
 
+use crate::projection::Projection;
+
 /// A camera on a turntable: it looks at `target` from a distance, and its horizon stays level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitCamera {
@@ -148,7 +150,7 @@ impl OrbitCamera {
 
     /// Moves in the view plane, so that a point at the target's depth stays under the cursor.
     pub fn pan(&mut self, delta: DVec2, screen: Screen) {
-        let scale = 2.0 * self.distance * self.tan_half_fov() / screen.height.max(1.0);
+        let scale = self.projection(screen).length_at(self.distance);
         self.target += scale * (delta.y * self.up() - delta.x * self.right());
     }
 
@@ -208,6 +210,19 @@ impl OrbitCamera {
         [self.right(), self.up(), self.offset()]
     }
 
+    /// Where points of the world are on `screen`.
+    pub fn projection(&self, screen: Screen) -> Projection {
+        Projection {
+            eye: self.eye(),
+            right: self.right(),
+            up: self.up(),
+            forward: -self.offset(),
+            tan_half_fov: (self.fov_y_degrees.to_radians() / 2.0).tan(),
+            width: screen.width,
+            height: screen.height.max(1.0),
+        }
+    }
+
     fn turn(&mut self, angles: DVec2) {
         self.yaw = (self.yaw - angles.x).rem_euclid(2.0 * PI);
         self.pitch = (self.pitch + angles.y).clamp(-FRAC_PI_2, FRAC_PI_2);
@@ -250,15 +265,9 @@ impl OrbitCamera {
         self.yaw.cos() * front + self.yaw.sin() * side
     }
 
-    fn tan_half_fov(&self) -> f64 {
-        (self.fov_y_degrees.to_radians() / 2.0).tan()
-    }
-
     /// Sideways part of the ray under `cursor`, for each unit of depth.
     fn lateral(&self, cursor: DVec2, screen: Screen) -> DVec3 {
-        let scale = 2.0 * self.tan_half_fov() / screen.height.max(1.0);
-        let from_centre = cursor - 0.5 * DVec2::new(screen.width, screen.height);
-        scale * (from_centre.x * self.right() - from_centre.y * self.up())
+        self.projection(screen).sideways(cursor)
     }
 }
 
@@ -278,11 +287,7 @@ mod tests {
 
     /// Where a point of the world appears on the screen.
     fn project(camera: &OrbitCamera, point: DVec3) -> DVec2 {
-        let [right, up, back] = camera.axes();
-        let to = point - camera.eye();
-        let depth = -to.dot(back);
-        let scale = SCREEN.height / (2.0 * camera.tan_half_fov() * depth);
-        DVec2::new(400.0 + scale * to.dot(right), 300.0 - scale * to.dot(up))
+        camera.projection(SCREEN).project(point).unwrap().at
     }
 
     /// The point of the plane through the target that is seen at `cursor`.
