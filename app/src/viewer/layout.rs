@@ -57,14 +57,15 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
 
 fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     let Desk { session, editor, sampling, legend, measurement, .. } = desk;
+    let measurement = measurement.as_ref().map(|measurement| &measurement.state);
     widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
     widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
     widgets::section(ui, "Sampling", true, |ui| {
         sampling.show(ui, session);
         saved::show(ui, session);
-        measured_error::show(ui, session, measurement.as_ref(), actions);
+        measured_error::show(ui, session, measurement, actions);
     });
-    widgets::section(ui, "Cells", true, |ui| cells::show(ui, session, measurement.as_ref(), actions));
+    widgets::section(ui, "Cells", true, |ui| cells::show(ui, session, measurement, actions));
     widgets::section(ui, "Picture", false, |ui| image::show(ui, session, legend, actions));
     widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
     widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
@@ -72,7 +73,8 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
 }
 
 fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
-    let overlaid = overlay_legend::show(ui, desk, rect);
+    let measurement = desk.measurement.as_ref().map(|measurement| &measurement.state);
+    let overlaid = overlay_legend::show(ui, &desk.session, &desk.picture.layers, measurement, rect);
     if !overlaid && desk.legend && desk.session.picture.is_some() {
         legend::show(ui, &desk.session, rect);
     }

@@ -1,15 +1,28 @@
 //! What a click in each panel changes in the session, and how the panels look.
 
+mod cells;
+mod help;
+mod inspector;
+mod measured_error;
+mod messages;
+mod overlay_legend;
+mod particles;
 mod quantity;
+mod sampling;
+mod saved;
+mod timeline;
+mod toolbar;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use egui::Ui;
+use egui::{Shape, Ui};
 use egui_kittest::Harness;
-use renderer::View;
+use renderer::{Stats, View};
 
+use super::prepare::Preparation;
+use super::render_thread::{Report, Shown};
 use super::run::Run;
 use super::session::Session;
 use super::{Wake, theme};
@@ -25,7 +38,7 @@ fn fluid() -> Session {
         text += &format!("{x},{y},{z},{},{speed},0,{}\n", 1000 + 10 * y, -speed);
     }
     std::fs::write(&path, text).unwrap();
-    session(path.to_str().unwrap())
+    session_over(&[path.to_str().unwrap()])
 }
 
 fn lattice(side: u32) -> impl Iterator<Item = [u32; 3]> {
@@ -33,10 +46,11 @@ fn lattice(side: u32) -> impl Iterator<Item = [u32; 3]> {
 }
 
 /// A session whose first frame, and what is counted of it, are there.
-fn session(run: &str) -> Session {
+fn session_over(frames: &[&str]) -> Session {
     let wake: Wake = Arc::new(|| {});
     let mut session = Session::new(View::default());
-    session.open(Run::new(&Sequence::open(&[PathBuf::from(run)]).unwrap(), &wake));
+    let paths: Vec<PathBuf> = frames.iter().map(PathBuf::from).collect();
+    session.open(Run::new(&Sequence::open(&paths).unwrap(), &wake));
     let limit = Instant::now() + Duration::from_secs(20);
     while session.frame().is_none() {
         assert!(Instant::now() < limit, "the frame did not come");
@@ -51,6 +65,55 @@ fn session(run: &str) -> Session {
 fn count(session: &mut Session) {
     while let Some(question) = session.question() {
         session.answer(question.answer());
+    }
+}
+
+/// What the renderer reports of the frame in view: a picture of one grey pixel that cost `stats`.
+fn shown(session: &Session, stats: Stats) -> Shown {
+    let (index, frame) = session.frame().unwrap();
+    let (_, facts) = Preparation::default().scene(frame, &session.complete_view()).unwrap();
+    Shown {
+        index: *index,
+        width: 1,
+        height: 1,
+        pixels: vec![[128, 128, 128, 255]],
+        full: [640, 400],
+        divisor: 1,
+        sampling: session.view.sampling,
+        stats,
+        facts,
+        cells: None,
+        probed: None,
+    }
+}
+
+/// The same session with that picture in view.
+fn pictured(mut session: Session, stats: Stats) -> Session {
+    let shown = shown(&session, stats);
+    session.note(&Report::Picture(Box::new(shown)));
+    session
+}
+
+/// All that is written, by labels and by painters, from the back to the front.
+fn texts<S>(harness: &Harness<'_, S>) -> Vec<String> {
+    fn collect(shape: &Shape, texts: &mut Vec<String>) {
+        match shape {
+            Shape::Text(text) => texts.push(text.galley.text().to_owned()),
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, texts)),
+            _ => {}
+        }
+    }
+    let mut texts = Vec::new();
+    harness.output().shapes.iter().for_each(|clipped| collect(&clipped.shape, &mut texts));
+    texts
+}
+
+/// Fails unless all of these are written somewhere.
+#[track_caller]
+fn assert_written<S>(harness: &Harness<'_, S>, wanted: &[&str]) {
+    let texts = texts(harness);
+    for wanted in wanted {
+        assert!(texts.iter().any(|text| text == wanted), "`{wanted}` is not among {texts:?}");
     }
 }
 

@@ -4,7 +4,7 @@ use egui::{ComboBox, RichText, Slider, Ui};
 use renderer::{CELL_SLICES, CellClass, Stats};
 
 use crate::overlay::look;
-use crate::viewer::measurement::Measurement;
+use crate::viewer::measurement::State;
 use crate::viewer::overlay::{Kind, Overlay, Which};
 use crate::viewer::session::Session;
 use crate::viewer::shortcuts::Action;
@@ -25,12 +25,7 @@ const DEPTHS: [(Which, &str, &str); 3] = [
     (Which::Slice, "Slice", "The cells of one layer"),
 ];
 
-pub fn show(
-    ui: &mut Ui,
-    session: &mut Session,
-    measurement: Option<&Measurement>,
-    actions: &mut Vec<Action>,
-) {
+pub fn show(ui: &mut Ui, session: &mut Session, measurement: Option<&State>, actions: &mut Vec<Action>) {
     let response = ui.horizontal(|ui| widgets::choice(ui, &mut session.overlay.kind, &KINDS));
     Areas::mark(ui, "overlay", response.response.rect);
     let adaptive = session.view.sampling.tolerance.is_some();
@@ -87,11 +82,13 @@ fn depth(ui: &mut Ui, overlay: &mut Overlay, stats: Option<&Stats>) {
         Which::FrontMost => {}
         Which::Share => widgets::row(ui, "Class", |ui| {
             let (width, name) = (ui.available_width(), look(overlay.class).name);
-            ComboBox::from_id_salt("class").width(width).selected_text(name).show_ui(ui, |ui| {
+            let menu = ComboBox::from_id_salt("class").width(width).selected_text(name);
+            let menu = menu.show_ui(ui, |ui| {
                 for class in CellClass::ALL {
                     ui.selectable_value(&mut overlay.class, class, look(class).name);
                 }
             });
+            menu.response.accessible_name("Class");
         }),
         Which::Slice => slice(ui, overlay, stats),
     }
@@ -105,6 +102,7 @@ fn slice(ui: &mut Ui, overlay: &mut Overlay, stats: Option<&Stats>) {
         let number = ui.spacing().interact_size.x;
         ui.spacing_mut().slider_width = ui.available_width() - number - ui.spacing().item_spacing.x;
         let slider = ui.add(Slider::new(&mut layer, 0..=layers.saturating_sub(1)));
+        let slider = slider.accessible_name("Layer");
         Areas::mark(ui, "slice", slider.rect);
         if slider.changed() {
             overlay.set_layer(layer, layers);
@@ -126,7 +124,7 @@ fn opacity(ui: &mut Ui, overlay: &mut Overlay) {
         ui.spacing_mut().slider_width = ui.available_width() - number - ui.spacing().item_spacing.x;
         let mut percent = 100.0 * overlay.opacity();
         let slider = ui.add(Slider::new(&mut percent, 0.0..=100.0).fixed_decimals(0).suffix(" %"));
-        if slider.changed() {
+        if slider.accessible_name("Opacity").changed() {
             *overlay.opacity_mut() = percent / 100.0;
         }
     });

@@ -2,7 +2,7 @@
 
 use egui::{Ui, vec2};
 
-use crate::viewer::measurement::{Measured, Measurement, State};
+use crate::viewer::measurement::{Measured, State};
 use crate::viewer::overlay::Kind;
 use crate::viewer::session::Session;
 use crate::viewer::shortcuts::Action;
@@ -11,14 +11,9 @@ use crate::viewer::widgets::{self, Areas};
 
 use super::sampling::{in_steps, plain};
 
-pub fn show(
-    ui: &mut Ui,
-    session: &mut Session,
-    measurement: Option<&Measurement>,
-    actions: &mut Vec<Action>,
-) {
+pub fn show(ui: &mut Ui, session: &mut Session, measurement: Option<&State>, actions: &mut Vec<Action>) {
     ui.add_space(4.0);
-    match measurement.map(|measurement| &measurement.state) {
+    match measurement {
         Some(State::Done(measured)) => {
             facts(ui, measured);
             let overlay = &mut session.overlay;

@@ -4,23 +4,24 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use renderer::CellClass;
 
 use crate::overlay::look;
-use crate::viewer::desk::Desk;
+use crate::viewer::layers::Layers;
 use crate::viewer::measurement::State;
 use crate::viewer::overlay::{Kind, Which};
+use crate::viewer::session::Session;
 use crate::viewer::{error_map, theme, widgets};
 
 use super::{cells, error_legend, legend};
 
 /// Shows it, where something lies over the picture.
-pub fn show(ui: &Ui, desk: &Desk, picture: Rect) -> bool {
-    let overlay = &desk.session.overlay;
-    if !desk.picture.layers.is_over(overlay) {
+pub fn show(ui: &Ui, session: &Session, layers: &Layers, measurement: Option<&State>, picture: Rect) -> bool {
+    let overlay = &session.overlay;
+    if !layers.is_over(overlay) {
         return false;
     }
-    match (overlay.kind, desk.measurement.as_ref().map(|measurement| &measurement.state)) {
+    match (overlay.kind, measurement) {
         (Kind::Classes, _) if overlay.which == Which::Share => share(ui, overlay.class, picture),
-        (Kind::Classes, _) => classes(ui, desk, picture),
-        (Kind::Predicted, _) => predicted(ui, desk.picture.layers.tolerance().unwrap_or(0.0), picture),
+        (Kind::Classes, _) => classes(ui, session, layers, picture),
+        (Kind::Predicted, _) => predicted(ui, layers.tolerance().unwrap_or(0.0), picture),
         (Kind::Measured, Some(State::Done(measured))) => error_legend::show(ui, measured, picture),
         (Kind::Measured | Kind::Off, _) => {}
     }
@@ -49,8 +50,8 @@ fn share(ui: &Ui, class: CellClass, picture: Rect) {
 const SIZE: [f32; 3] = [178.0, 19.0, 10.0];
 
 /// The classes in view with their share of the bundles that they cover.
-fn classes(ui: &Ui, desk: &Desk, picture: Rect) {
-    let Some(counts) = desk.picture.layers.covered(&desk.session.overlay) else { return };
+fn classes(ui: &Ui, session: &Session, layers: &Layers, picture: Rect) {
+    let Some(counts) = layers.covered(&session.overlay) else { return };
     let shown: Vec<(CellClass, u64)> =
         CellClass::ALL.into_iter().zip(*counts).filter(|(_, count)| *count > 0).collect();
     let [width, step, margin] = SIZE;
@@ -63,7 +64,7 @@ fn classes(ui: &Ui, desk: &Desk, picture: Rect) {
     ui.painter().rect_filled(ground, 6, Color32::from_black_alpha(190));
     let inside = ground.shrink(margin);
     let line = |row: usize| inside.left_top() + vec2(0.0, step * (row as f32 + 0.5));
-    ui.painter().text(line(0), Align2::LEFT_CENTER, title(desk), theme::small_font(), theme::MUTED);
+    ui.painter().text(line(0), Align2::LEFT_CENTER, title(session), theme::small_font(), theme::MUTED);
     let all = counts.iter().sum::<u64>().max(1) as f64;
     for (row, (class, count)) in shown.into_iter().enumerate() {
         let look = look(class);
@@ -79,9 +80,9 @@ fn classes(ui: &Ui, desk: &Desk, picture: Rect) {
     }
 }
 
-fn title(desk: &Desk) -> String {
-    let overlay = &desk.session.overlay;
-    match (&overlay.which, &desk.session.picture) {
+fn title(session: &Session) -> String {
+    let overlay = &session.overlay;
+    match (&overlay.which, &session.picture) {
         (Which::Slice, Some(picture)) => {
             let stats = &picture.stats;
             let layer = overlay.layer((stats.slices / u64::from(renderer::CELL_SLICES)) as u32);

@@ -15,7 +15,8 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         let mut radius = settings.support_radius.unwrap_or(largest);
         let scale = if largest > 0.0 { largest } else { 1.0 };
         let field = widgets::number(&mut radius, scale).range(scale * 1e-3..=scale * 1e3);
-        let field = ui.add(field).on_hover_text("Radius at which the kernel reaches zero");
+        let field = ui.add(field).accessible_name("Support radius");
+        let field = field.on_hover_text("Radius at which the kernel reaches zero");
         if field.changed() {
             settings.support_radius = Some(radius);
         }
@@ -27,14 +28,13 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     });
     widgets::row(ui, "Kernel", |ui| {
         let width = ui.available_width();
-        egui::ComboBox::from_id_salt("kernel").width(width).selected_text(settings.kernel.name()).show_ui(
-            ui,
-            |ui| {
-                for kernel in Kernel::ALL {
-                    ui.selectable_value(&mut settings.kernel, kernel, kernel.name());
-                }
-            },
-        );
+        let menu = egui::ComboBox::from_id_salt("kernel").width(width);
+        let menu = menu.selected_text(settings.kernel.name()).show_ui(ui, |ui| {
+            for kernel in Kernel::ALL {
+                ui.selectable_value(&mut settings.kernel, kernel, kernel.name());
+            }
+        });
+        menu.response.accessible_name("Kernel");
     });
     widgets::fact(ui, "Particles", widgets::count(facts.particles as u64));
     if smallest < largest {

@@ -69,12 +69,14 @@ fn slider(ui: &mut Ui, tolerance: &mut f64) {
         ui.spacing_mut().slider_width = ui.available_width() - number - ui.spacing().item_spacing.x;
         let slider = Slider::new(tolerance, SLIDER).logarithmic(true).show_value(false);
         // A tolerance from a file may lie outside; looking at it must not change it.
-        let slider = ui.add(slider.clamping(SliderClamping::Never)).on_hover_text(hint);
+        let slider = ui.add(slider.clamping(SliderClamping::Never));
+        let slider = slider.accessible_name("Tolerance").on_hover_text(hint);
         Areas::mark(ui, "tolerance", slider.rect);
         if slider.changed() {
             *tolerance = rounded(tolerance.clamp(*SLIDER.start(), *SLIDER.end()), 2);
         }
-        ui.add(widgets::number(tolerance, 0.0).range(0.0..=1.0)).on_hover_text(hint);
+        let number = ui.add(widgets::number(tolerance, 0.0).range(0.0..=1.0));
+        number.accessible_name("Tolerance").on_hover_text(hint);
     });
 }
 
@@ -126,12 +128,14 @@ fn relaxation(ui: &mut Ui, relaxation: &mut f64) {
     widgets::row(ui, "Relaxation", |ui| {
         let number = ui.spacing().interact_size.x;
         ui.spacing_mut().slider_width = ui.available_width() - number - ui.spacing().item_spacing.x;
-        let slider = ui.add(Slider::new(relaxation, 0.0..=1.0).show_value(false)).on_hover_text(hint);
+        let slider = ui.add(Slider::new(relaxation, 0.0..=1.0).show_value(false));
+        let slider = slider.accessible_name("Relaxation").on_hover_text(hint);
         Areas::mark(ui, "relaxation", slider.rect);
         if slider.changed() {
             *relaxation = rounded(*relaxation, 2);
         }
-        ui.add(widgets::number(relaxation, 1.0).range(0.0..=1.0)).on_hover_text(hint);
+        let number = ui.add(widgets::number(relaxation, 1.0).range(0.0..=1.0));
+        number.accessible_name("Relaxation").on_hover_text(hint);
     });
     let guarantee = match *relaxation > 0.0 {
         true => "Relaxed: the tolerance is no guarantee",

@@ -59,7 +59,8 @@ fn speed(ui: &mut Ui, session: &mut Session) {
             ui.selectable_value(speed, choice, label(choice));
         }
     });
-    response.response.on_hover_text("Frames a second while playing; never faster than pictures are drawn");
+    let response = response.response.accessible_name("Speed");
+    response.on_hover_text("Frames a second while playing; never faster than pictures are drawn");
 }
 
 /// Which frame this is, in words, from right to left.

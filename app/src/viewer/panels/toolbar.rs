@@ -84,7 +84,7 @@ fn call(ui: &mut Ui, button: Button<'_>, action: Action, actions: &mut Vec<Actio
 /// A line of a menu, with its keys at the right edge.
 fn item(ui: &mut Ui, label: &str, action: Action, actions: &mut Vec<Action>) {
     let keys = crate::viewer::shortcuts::keys(ui.ctx(), action);
-    if ui.add(Button::new(label).shortcut_text(keys)).clicked() {
+    if ui.add(Button::new(label).shortcut_text(keys)).accessible_name(label).clicked() {
         actions.push(action);
         ui.close();
     }

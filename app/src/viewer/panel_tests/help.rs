@@ -1,0 +1,44 @@
+use std::collections::HashSet;
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+use super::texts;
+use crate::viewer::panels::help;
+use crate::viewer::shortcuts::{GESTURES, SHORTCUTS};
+use crate::viewer::theme;
+
+fn opened() -> Harness<'static, bool> {
+    let mut harness = Harness::builder().with_size(egui::vec2(1280.0, 800.0)).build_ui_state(
+        |ui, open: &mut bool| {
+            theme::apply(ui.ctx());
+            help::show(ui, open);
+        },
+        true,
+    );
+    harness.run();
+    harness
+}
+
+#[test]
+fn every_shortcut_and_gesture_is_told() {
+    let harness = opened();
+    let written: HashSet<String> = texts(&harness).into_iter().collect();
+    let meanings = SHORTCUTS.iter().map(|shortcut| shortcut.meaning).filter(|meaning| !meaning.is_empty());
+    for text in meanings.chain(GESTURES.iter().map(|(_, meaning)| *meaning)) {
+        assert!(written.contains(text), "`{text}` is missing");
+    }
+    assert!(written.contains("Ctrl+Shift+O"));
+}
+
+#[test]
+fn it_closes_by_its_button_and_by_escape() {
+    let mut harness = opened();
+    harness.get_by_label("Close").click();
+    harness.run();
+    assert!(!harness.state());
+    let mut harness = opened();
+    harness.key_press(egui::Key::Escape);
+    harness.run();
+    assert!(!harness.state());
+}
