@@ -5,11 +5,14 @@
 //! depend on the frame and the view's support radius, the quantity on the particles and the view's
 //! `quantity`.
 
+mod choice;
+
 use std::fmt;
 
-use renderer::{ParticleSet, Quantity, QuantityView, RawParticle, Rejected};
+use renderer::{ParticleSet, Quantity, QuantityView, RawParticle, Rejected, SelectView};
 
 use crate::frames::{Column, Field, Frame, median_spacing, names};
+pub use choice::choice;
 
 /// Why a frame and a view make no scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -18,6 +21,8 @@ pub enum SceneError {
     NoSuchField { name: String, fields: String },
     #[error("field `{field}` has {components} components, there is no `{name}`")]
     NoSuchComponent { name: String, field: String, components: usize },
+    #[error("select.filters: filter {number}: {why}")]
+    Filter { number: usize, why: Box<SceneError> },
     #[error("{0} particles are more than the {max} that one picture can hold", max = ParticleSet::MAX_PARTICLES)]
     TooManyParticles(usize),
 }
@@ -103,6 +108,11 @@ impl<'a> Support<'a> {
         }
     }
 
+    /// The radius of all particles where nothing in the frame says it.
+    pub fn estimate(&self) -> Option<f64> {
+        matches!(self.source, SupportSource::Spacing | SupportSource::Unknown).then_some(self.factor)
+    }
+
     /// Support radius of one particle, as given: it may be negative or not finite.
     pub fn radius(&self, row: usize) -> f64 {
         let checked = self.checked.map_or(1.0, |radii| radii.get(row, 0));
@@ -119,15 +129,27 @@ impl<'a> Support<'a> {
 /// V_j = m_j/ρ_j; masses that the frame does not give are taken as equal, and without a density
 /// that is positive and finite everywhere V_j = 1 (contract, section 1).
 pub fn particles(frame: &Frame, support_radius: Option<f64>) -> Result<ParticleSet, SceneError> {
+    selected_particles(frame, support_radius, &SelectView::default())
+}
+
+/// The same, without those that `select` leaves out. Support radii and volumes are what they are in
+/// the whole frame.
+pub fn selected_particles(
+    frame: &Frame,
+    support_radius: Option<f64>,
+    select: &SelectView,
+) -> Result<ParticleSet, SceneError> {
     if frame.len() > ParticleSet::MAX_PARTICLES {
         return Err(SceneError::TooManyParticles(frame.len()));
     }
+    let choice = choice(frame, select)?;
     let (support, volume) = (Support::new(frame, support_radius), volumes(frame));
-    Ok(ParticleSet::new(frame.len(), |row| RawParticle {
+    let particle = |row| RawParticle {
         position: frame.position(row),
         support_radius: support.radius(row),
         volume: volume(row),
-    }))
+    };
+    Ok(ParticleSet::selected(frame.len(), particle, |row| choice.keeps(row)))
 }
 
 /// The volume of each particle, m/ρ or 1.

@@ -67,7 +67,7 @@ pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};
 pub use inspect::GridCell;
 pub use kernel::Kernel;
-pub use particles::{Bounds, ParticleSet, Quantity, RawParticle, Rejected};
+pub use particles::{Bounds, Extent, ParticleSet, Quantity, RawParticle, Rejected};
 pub use picture::Picture;
 pub use renderer::{Progress, Renderer};
 pub use sampling::{Bound, Sampling, Without};
@@ -75,5 +75,6 @@ pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ControlPoint, TransferFunction};
 pub use view::{
-    CameraView, ImageView, ParticleView, QuantityView, SamplingView, TransferView, View, ViewError,
+    CameraView, ClipBox, ClipPlane, Filter, ImageView, ParticleView, QuantityView, SamplingView, SelectView,
+    TransferView, View, ViewError,
 };

@@ -1,9 +1,14 @@
 //! The host's particle set: validated, recentred and rescaled in f64 before it becomes f32.
 
+mod verdicts;
+
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::DVec3;
 use rayon::prelude::*;
+
+pub use verdicts::Extent;
+use verdicts::judge;
 
 /// One particle as a file gives it. Lengths in the unit of the run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +68,11 @@ pub struct ParticleSet {
     unit: f64,
     bounds: Option<Bounds>,
     radii: [f64; 2],
+    whole: Extent,
     rejected: Rejected,
+    /// Rows in the source, and those of them that are rejected, in ascending order.
+    rows: usize,
+    bad: Vec<u32>,
     /// Row in the source of each kept particle; `None` where every row was kept.
     source: Option<Vec<u32>>,
     pub(crate) high: Vec<[f32; 4]>,
@@ -80,15 +89,23 @@ impl ParticleSet {
     /// Takes `count` particles from `particle(row)`, which is called from several threads.
     /// Rows beyond [`ParticleSet::MAX_PARTICLES`] are the caller's error.
     pub fn new(count: usize, particle: impl Fn(usize) -> RawParticle + Sync) -> ParticleSet {
+        ParticleSet::selected(count, particle, |_| true)
+    }
+
+    /// The same, of which only those rows are kept that `selects` names. The others are not rejected.
+    pub fn selected(
+        count: usize,
+        particle: impl Fn(usize) -> RawParticle + Sync,
+        selects: impl Fn(usize) -> bool + Sync,
+    ) -> ParticleSet {
         assert!(count <= Self::MAX_PARTICLES, "{count} particles are more than a set can hold");
-        let verdicts = judge(count, &particle);
-        let source = (verdicts.rejected.total() > 0).then_some(verdicts.kept);
+        let verdicts = judge(count, &particle, &selects);
+        let source = (verdicts.rows.len() < count).then_some(verdicts.rows);
         let kept = source.as_ref().map_or(count, Vec::len);
         let row = |index: usize| source.as_ref().map_or(index, |rows| rows[index] as usize);
 
-        let bounds = verdicts.bounds;
+        let Extent { bounds, support_radii: radii, .. } = verdicts.selected;
         let origin = bounds.map_or(DVec3::ZERO, |bounds| bounds.centre());
-        let radii = verdicts.radii;
         // A length of the run itself, so that the same run in another unit is the same to the device: f64
         // rounds its positions far below their f32 parts.
         let unit = if kept == 0 { 1.0 } else { radii[0].sqrt() * radii[1].sqrt() };
@@ -115,7 +132,10 @@ impl ParticleSet {
             unit,
             bounds,
             radii,
+            whole: verdicts.whole,
             rejected: verdicts.rejected,
+            rows: count,
+            bad: verdicts.bad,
             source,
             high,
             low,
@@ -129,6 +149,11 @@ impl ParticleSet {
 
     pub fn is_empty(&self) -> bool {
         self.high.is_empty()
+    }
+
+    /// What the particles take up together with those that were not selected.
+    pub fn whole(&self) -> Extent {
+        self.whole
     }
 
     /// Particles left out for their position, volume or radius.
@@ -149,6 +174,11 @@ impl ParticleSet {
     /// Row in the source of the kept particle `index`.
     pub fn source_row(&self, index: usize) -> usize {
         self.source.as_ref().map_or(index, |rows| rows[index] as usize)
+    }
+
+    /// Whether a row in the source makes no particle.
+    fn is_bad(&self, row: usize) -> bool {
+        self.bad.binary_search(&(row as u32)).is_ok()
     }
 
     /// Position of the kept particle `index`, in the unit of the run.
@@ -226,15 +256,16 @@ impl Quantity {
     const LIMIT: f64 = 1e15;
 
     /// Takes the quantity of each source row of `particles` from `value(row)`. `range` is u = 0 and
-    /// u = 1; the finite minimum and maximum where it is `None`. A range of no width is a threshold:
+    /// u = 1; the finite minimum and maximum over the whole frame, selected or not, where it is `None`. A range of no width is a threshold:
     /// its own value is u = ½, interpolated values below it are 0 and those above it 1.
     pub fn new(
         particles: &ParticleSet,
         range: Option<[f64; 2]>,
         value: impl Fn(usize) -> f64 + Sync,
     ) -> Quantity {
+        let whole = |row: usize| if particles.is_bad(row) { f64::NAN } else { value(row) };
+        let [low, high] = range.unwrap_or_else(|| finite_range(particles.rows, whole));
         let value = |index: usize| value(particles.source_row(index));
-        let [low, high] = range.unwrap_or_else(|| finite_range(particles.len(), value));
         // Halves first: high − low of two huge values of opposite sign may overflow.
         let half_width = high * 0.5 - low * 0.5;
         // A threshold is a range so narrow that nothing but the value itself falls inside it.
@@ -298,53 +329,6 @@ const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 fn join(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].min(b[0]), a[1].max(b[1])]
-}
-
-/// What one pass over the source finds out.
-struct Verdicts {
-    kept: Vec<u32>,
-    rejected: Rejected,
-    bounds: Option<Bounds>,
-    radii: [f64; 2],
-    /// Extremes of ln(V/h³).
-    weights: [f64; 2],
-}
-
-fn judge(count: usize, particle: &(impl Fn(usize) -> RawParticle + Sync)) -> Verdicts {
-    let nothing = || (Vec::new(), Rejected::default(), None::<Bounds>, EMPTY, EMPTY);
-    let (kept, rejected, bounds, radii, weights) = (0..count)
-        .into_par_iter()
-        .fold(nothing, |(mut kept, mut rejected, bounds, radii, weights), row| {
-            let raw = particle(row);
-            let finite = raw.position.iter().all(|x| x.is_finite()) && raw.volume.is_finite();
-            if !finite {
-                rejected.non_finite += 1;
-                return (kept, rejected, bounds, radii, weights);
-            }
-            if !(raw.support_radius.is_finite() && raw.support_radius > 0.0) {
-                rejected.bad_radius += 1;
-                return (kept, rejected, bounds, radii, weights);
-            }
-            kept.push(row as u32);
-            let point = DVec3::from_array(raw.position);
-            let here = Bounds { min: point, max: point };
-            let bounds = Some(bounds.map_or(here, |all| all.union(&here)));
-            let h = raw.support_radius;
-            let weight = weight_of(&raw);
-            (kept, rejected, bounds, join(radii, [h, h]), join(weights, [weight, weight]))
-        })
-        .reduce(nothing, |mut a, b| {
-            a.0.extend(b.0);
-            a.1.non_finite += b.1.non_finite;
-            a.1.bad_radius += b.1.bad_radius;
-            let bounds = match (a.2, b.2) {
-                (Some(x), Some(y)) => Some(x.union(&y)),
-                (x, y) => x.or(y),
-            };
-            (a.0, a.1, bounds, join(a.3, b.3), join(a.4, b.4))
-        });
-    let radii = if kept.is_empty() { [0.0; 2] } else { radii };
-    Verdicts { kept, rejected, bounds, radii, weights }
 }
 
 /// ln(V/h³): logarithms, since h³ of a run in metres of the cosmos overflows.

@@ -36,8 +36,8 @@ impl Scene {
     ) -> Result<Scene, ViewError> {
         view.validate()?;
         let aspect = f64::from(view.image.width) / f64::from(view.image.height);
-        let margin = particles.support_radii()[1];
-        let bounds = particles.bounds();
+        let whole = particles.whole();
+        let (bounds, margin) = (whole.bounds, whole.support_radii[1]);
         let camera = match view.camera {
             Some(camera) => camera.settled(bounds, margin, aspect),
             None => Camera::overview(bounds, margin, aspect),
@@ -60,10 +60,11 @@ impl Scene {
     }
 }
 
-/// A thirtieth of the diagonal of the particles' supports; 1 without particles.
+/// A thirtieth of the diagonal of the supports of all particles, selected or not; 1 without particles.
 pub fn default_reference_length(particles: &ParticleSet) -> f64 {
-    match particles.bounds() {
-        Some(bounds) => (bounds.diagonal() + 2.0 * particles.support_radii()[1]) / 30.0,
+    let whole = particles.whole();
+    match whole.bounds {
+        Some(bounds) => (bounds.diagonal() + 2.0 * whole.support_radii[1]) / 30.0,
         None => 1.0,
     }
 }

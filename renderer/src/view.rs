@@ -1,11 +1,14 @@
 //! `View`: everything that defines a picture, as `view.json` holds it (contract, section 2).
 
+mod select;
+
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::kernel::Kernel;
 use crate::sampling::Bound;
 use crate::transfer::{ControlPoint, TransferFunction};
+pub use select::{ClipBox, ClipPlane, Filter, SelectView};
 
 /// The settings of a picture. Every key of the file is optional; unknown keys are errors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -17,6 +20,8 @@ pub struct View {
     pub image: ImageView,
     pub quantity: QuantityView,
     pub particles: ParticleView,
+    #[serde(skip_serializing_if = "SelectView::is_empty")]
+    pub select: SelectView,
     pub transfer: TransferView,
     pub sampling: SamplingView,
 }
@@ -200,6 +205,7 @@ impl View {
         if let Some(h) = self.particles.support_radius {
             check(positive(h), "particles.support_radius", || format!("{h} is not a positive length"))?;
         }
+        self.select.validate()?;
         self.sampling.validate()?;
         if let Some(length) = self.transfer.reference_length {
             check(positive(length), "transfer.reference_length", || {

@@ -233,7 +233,8 @@ impl Film {
 
 impl Content {
     pub fn new(frame: &Frame, view: View) -> anyhow::Result<Content> {
-        let particles = Arc::new(scene::particles(frame, view.particles.support_radius)?);
+        let radius = view.particles.support_radius;
+        let particles = Arc::new(scene::selected_particles(frame, radius, &view.select)?);
         let quantity = Arc::new(scene::quantity(frame, &particles, &view.quantity)?);
         Ok(Content { particles, quantity, view })
     }

@@ -134,6 +134,9 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
 fn nothing(desk: &Desk) -> Option<String> {
     let index = desk.session.playback.index();
     match &desk.session.picture {
+        Some(picture) if picture.facts.particles == 0 && picture.facts.whole > 0 => {
+            Some("No particle is selected: see Clip and filter".to_owned())
+        }
         Some(picture) if picture.facts.particles == 0 => {
             Some(format!("Frame {} holds no particles", picture.index))
         }

@@ -2,19 +2,21 @@
 
 use std::sync::Arc;
 
-use renderer::{Bounds, ParticleSet, Quantity, Rejected, Scene, View};
+use renderer::{Bounds, ParticleSet, ParticleView, Quantity, Rejected, Scene, SelectView, View};
 
 use crate::frames::Frame;
-use crate::scene;
+use crate::scene::{self, Support};
 
 /// What a frame turned out to be, for panels and camera. Lengths in the unit of the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
     pub particles: usize,
+    /// Those that can be shown, selected or not.
+    pub whole: usize,
     pub rejected: Rejected,
-    /// Around the centres of the particles.
+    /// Around the centres of the particles of the whole frame.
     pub bounds: Option<Bounds>,
-    /// Smallest and largest support radius.
+    /// Of the whole frame, smallest and largest support radius.
     pub support_radii: [f64; 2],
     /// What a view without a reference length stands for.
     pub reference_length: f64,
@@ -26,8 +28,18 @@ pub struct Facts {
 /// keeps from being used again.
 #[derive(Default)]
 pub struct Preparation {
-    particles: Option<(Arc<Frame>, Option<f64>, Arc<ParticleSet>)>,
+    particles: Option<Prepared>,
+    /// The support radius of a frame where it is estimated from the spacing, which takes longer than
+    /// everything else: a clip that is dragged must not wait for it.
+    estimate: Option<(Arc<Frame>, Option<f64>)>,
     quantity: Option<(renderer::QuantityView, Arc<Quantity>)>,
+}
+
+struct Prepared {
+    frame: Arc<Frame>,
+    support_radius: Option<f64>,
+    select: SelectView,
+    particles: Arc<ParticleSet>,
 }
 
 impl Preparation {
@@ -37,11 +49,13 @@ impl Preparation {
         let quantity = self.quantity(frame, &particles, view)?;
         let mut rejected = particles.rejected();
         rejected.non_finite += quantity.rejected();
+        let whole = particles.whole();
         let facts = Facts {
             particles: particles.len(),
+            whole: whole.particles,
             rejected,
-            bounds: particles.bounds(),
-            support_radii: particles.support_radii(),
+            bounds: whole.bounds,
+            support_radii: whole.support_radii,
             reference_length: renderer::default_reference_length(&particles),
             range: quantity.range(),
         };
@@ -49,18 +63,37 @@ impl Preparation {
     }
 
     fn particles(&mut self, frame: &Arc<Frame>, view: &View) -> anyhow::Result<Arc<ParticleSet>> {
-        let radius = view.particles.support_radius;
-        if let Some((known, known_radius, particles)) = &self.particles
-            && Arc::ptr_eq(known, frame)
-            && *known_radius == radius
+        let View { particles: ParticleView { support_radius, .. }, select, .. } = view;
+        if let Some(known) = &self.particles
+            && Arc::ptr_eq(&known.frame, frame)
+            && known.support_radius == *support_radius
+            && known.select == *select
         {
-            return Ok(Arc::clone(particles));
+            return Ok(Arc::clone(&known.particles));
         }
         // Given up first: two large frames at a time may be one too many.
         (self.particles, self.quantity) = (None, None);
-        let particles = Arc::new(scene::particles(frame, radius)?);
-        self.particles = Some((Arc::clone(frame), radius, Arc::clone(&particles)));
+        let radius = support_radius.or_else(|| self.estimate(frame));
+        let particles = Arc::new(scene::selected_particles(frame, radius, select)?);
+        self.particles = Some(Prepared {
+            frame: Arc::clone(frame),
+            support_radius: *support_radius,
+            select: select.clone(),
+            particles: Arc::clone(&particles),
+        });
         Ok(particles)
+    }
+
+    fn estimate(&mut self, frame: &Arc<Frame>) -> Option<f64> {
+        if let Some((known, radius)) = &self.estimate
+            && Arc::ptr_eq(known, frame)
+        {
+            return *radius;
+        }
+        self.estimate = None;
+        let radius = Support::new(frame, None).estimate();
+        self.estimate = Some((Arc::clone(frame), radius));
+        radius
     }
 
     fn quantity(

@@ -7,7 +7,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use renderer::{Bounds, View};
+use renderer::{Bounds, SelectView, View};
 
 use crate::frames::{Frame, FrameState};
 
@@ -123,6 +123,7 @@ impl Session {
             // The settings of another run's place and scale.
             (self.camera, self.view.camera) = (None, None);
             self.view.particles.support_radius = None;
+            self.view.select = SelectView::default();
             self.view.transfer.reference_length = None;
             self.view.quantity.range = None;
             self.range_source = match self.range_source {

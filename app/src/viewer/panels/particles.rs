@@ -36,7 +36,15 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         });
         menu.response.accessible_name("Kernel");
     });
-    widgets::fact(ui, "Particles", widgets::count(facts.particles as u64));
+    let shown = widgets::count(facts.particles as u64);
+    widgets::fact(
+        ui,
+        "Particles",
+        match facts.particles < facts.whole {
+            true => format!("{shown} of {}", widgets::count(facts.whole as u64)),
+            false => shown,
+        },
+    );
     if smallest < largest {
         widgets::fact(
             ui,
