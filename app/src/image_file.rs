@@ -1,11 +1,15 @@
 //! Pictures in files: PNG for the eye, EXR for measuring. Written whole or not at all.
 
+mod exr;
+mod png;
+
+use std::fs::File;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
 use crate::io_error::describe;
 use anyhow::{Context, anyhow, bail};
-use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Rgba32FImage};
+use image::{ImageFormat, ImageReader};
 
 /// Premultiplied linear RGBA, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +48,32 @@ impl Format {
     }
 }
 
+/// What a picture file is told before its rows.
+#[derive(Clone, Debug, Default)]
+pub struct Header<'a> {
+    pub width: u32,
+    pub height: u32,
+    /// Linear: a PNG shows the picture over it, opaque, an EXR never does.
+    pub background: Option<[f32; 3]>,
+    /// ASCII that [`record`] finds again.
+    pub record: Option<String>,
+    /// Names of what an EXR holds for each pixel beside its colour, in ascending order, after `R`.
+    pub channels: &'a [&'a str],
+}
+
+/// Whole rows of a picture, from the top: [`ROWS`] or a multiple of them, or all that are left.
+pub struct Rows<'a> {
+    pub pixels: &'a [[f32; 4]],
+    /// As the header names them; a value a pixel.
+    pub channels: Vec<&'a [f32]>,
+}
+
+/// Rows that come together.
+pub const ROWS: u32 = 16;
+
+/// Takes rows on their way to a file.
+pub type Sink<'a> = dyn FnMut(Rows) -> anyhow::Result<()> + 'a;
+
 /// Writes a picture in the format that the name of `path` ends in. A PNG shows it over `background`
 /// (linear), opaque, where there is one; an EXR never does.
 ///
@@ -51,14 +81,56 @@ impl Format {
 /// Another ending, a picture without pixels, or whatever the system has against the file; the path
 /// comes first.
 pub fn write(path: &Path, pixels: &Pixels, background: Option<[f32; 3]>) -> anyhow::Result<()> {
+    let header = Header { width: pixels.width, height: pixels.height, background, ..Header::default() };
+    write_rows(path, &header, |sink| sink(Rows { pixels: &pixels.data, channels: Vec::new() }))
+}
+
+/// Writes the rows that `produce` makes, in the format that the name of `path` ends in: never more of
+/// them are held than `produce` gives at once.
+///
+/// # Errors
+/// Those of `produce`, as they are; and those of [`write`].
+pub fn write_rows<T>(
+    path: &Path,
+    header: &Header,
+    produce: impl FnOnce(&mut Sink) -> anyhow::Result<T>,
+) -> anyhow::Result<T> {
     let Some(format) = Format::of(path) else {
         bail!("{}: a picture's name ends in .png or .exr", path.display());
     };
-    let bytes = match format {
-        Format::Png => png(pixels, background),
-        Format::Exr => exr(pixels),
-    };
-    write_whole(path, &bytes.with_context(|| path.display().to_string())?)
+    // An encoder's own errors are those of the file; those of the producer are about something else.
+    let mut made = None;
+    let written = write_file(path, |file| {
+        let produce = |sink: &mut Sink| {
+            let result = produce(sink);
+            let ok = result.is_ok();
+            made = Some(result);
+            ok
+        };
+        match format {
+            Format::Png => png::write(file, header, produce),
+            Format::Exr => exr::write(file, header, produce),
+        }
+    });
+    match (written, made) {
+        (Ok(()), Some(result)) => result,
+        (Err(_), Some(Err(error))) if !error.is::<Refused>() => Err(error),
+        (Err(error), _) => Err(error),
+        (Ok(()), None) => bail!("{}: the picture is not whole", path.display()),
+    }
+}
+
+/// The error by which a producer learns that the file takes no more rows.
+#[derive(Debug, thiserror::Error)]
+#[error("the file takes no more rows")]
+struct Refused;
+
+/// What [`Header::record`] of the picture said; `None` for a picture without, or one that is not whole.
+pub fn record(path: &Path) -> Option<String> {
+    match Format::of(path)? {
+        Format::Png => png::record(path),
+        Format::Exr => exr::record(path),
+    }
 }
 
 /// Reads a picture back: an EXR as it is (opaque where it has no alpha), a PNG to premultiplied
@@ -70,7 +142,9 @@ pub fn read(path: &Path) -> anyhow::Result<Pixels> {
     let name = || path.display().to_string();
     let bytes = std::fs::read(path).map_err(|error| anyhow!(describe(&error))).with_context(name)?;
     // The content tells the format, whatever the name says.
-    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().with_context(name)?;
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().with_context(name)?;
+    // Pictures may be larger than what the library takes for one.
+    reader.no_limits();
     let linear = match reader.format() {
         Some(ImageFormat::OpenExr) => true,
         Some(ImageFormat::Png) => false,
@@ -89,38 +163,33 @@ pub fn read(path: &Path) -> anyhow::Result<Pixels> {
 /// Writes `bytes` to `path` so that a reader, and whoever comes after a crash, finds the old file or
 /// the new one, and never a part.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    write_file(path, |file| Ok(file.write_all(bytes)?))
+}
+
+/// Gives `path` what `write` puts into a file, whole or not at all.
+///
+/// # Errors
+/// The path, and what is wrong with writing there.
+pub fn write_file(path: &Path, write: impl FnOnce(&mut File) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let folder = match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    let write = || -> std::io::Result<()> {
+    let write = || -> anyhow::Result<()> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".sphcast-");
         // A temporary file is for its owner's eyes only; the picture is as open as other new files.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let mut file = builder.tempfile_in(folder)?;
-        file.write_all(bytes)?;
+        write(file.as_file_mut())?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
     };
-    write().map_err(|error| anyhow!("{}: cannot be written: {}", path.display(), describe(&error)))
-}
-
-fn png(pixels: &Pixels, background: Option<[f32; 3]>) -> anyhow::Result<Vec<u8>> {
-    let bytes: Vec<u8> = pixels.data.iter().flat_map(|&pixel| to_srgb8(pixel, background)).collect();
-    let mut png = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new(&mut png);
-    encoder.write_image(&bytes, pixels.width, pixels.height, ExtendedColorType::Rgba8)?;
-    Ok(png)
-}
-
-fn exr(pixels: &Pixels) -> anyhow::Result<Vec<u8>> {
-    let image = Rgba32FImage::from_raw(pixels.width, pixels.height, pixels.data.as_flattened().to_vec())
-        .ok_or_else(|| anyhow!("the picture is not whole"))?;
-    let mut exr = Cursor::new(Vec::new());
-    DynamicImage::ImageRgba32F(image).write_to(&mut exr, ImageFormat::OpenExr)?;
-    Ok(exr.into_inner())
+    write().map_err(|error| {
+        let what = error.downcast_ref().map_or_else(|| error.to_string(), describe);
+        anyhow!("{}: cannot be written: {what}", path.display())
+    })
 }
 
 /// One pixel of a PNG: over the background and opaque, or with straight alpha.

@@ -2,6 +2,7 @@
 
 pub mod cli;
 mod difference;
+mod export;
 pub mod frames;
 pub mod image_file;
 mod io_error;

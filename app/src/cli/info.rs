@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::SequenceArguments;
 use super::say::say;
+use crate::export::one_line;
 use crate::frames::{Column, Frame, median_spacing};
 use crate::scene::{Selection, Support};
 
@@ -82,7 +83,7 @@ pub fn run(arguments: &InfoArguments) -> anyhow::Result<()> {
             }
             Err(error) if !several => return Err(error),
             Err(error) => {
-                eprintln!("warning: {}", super::one_line(&error));
+                eprintln!("warning: {}", one_line(&error));
                 failed.push(&source.name);
             }
         }

@@ -4,11 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether the user wants the program to end.
-#[derive(Clone)]
 pub struct Interrupt(Arc<AtomicBool>);
-
-/// The error of work that Ctrl-C ended.
-pub const INTERRUPTED: &str = "sphcast: interrupted";
 
 /// What a shell expects of a program that Ctrl-C ended.
 const STATUS: i32 = 130;
@@ -33,10 +29,5 @@ impl Interrupt {
 
     pub fn asked(&self) -> bool {
         self.0.load(Ordering::SeqCst)
-    }
-
-    /// An error once the user asked.
-    pub fn check(&self) -> anyhow::Result<()> {
-        if self.asked() { Err(anyhow::anyhow!(INTERRUPTED)) } else { Ok(()) }
     }
 }

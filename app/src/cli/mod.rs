@@ -2,17 +2,15 @@
 
 mod bench;
 mod compare;
-mod film;
+mod console;
 mod info;
 mod interrupt;
-mod output;
 mod render;
 mod say;
-mod survey;
-mod timed;
 mod view;
 
 use std::ffi::OsString;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -20,6 +18,7 @@ use anyhow::Context;
 use clap::{Parser, Subcommand};
 use renderer::{Gpu, GpuOptions};
 
+use crate::export::{Run, one_line};
 use crate::frames::{FrameRange, Sequence};
 use crate::viewer;
 
@@ -96,12 +95,9 @@ struct SequenceArguments {
     /// Only some of the frames, counted from 0, B left out: A..B, A.., ..B, or one number
     #[arg(long, value_name = "A..B")]
     frames: Option<FrameRange>,
-}
-
-/// An opened run, and which number its first frame had before `--frames` cut it.
-struct Run {
-    sequence: Sequence,
-    first: usize,
+    /// Only every N-th of these frames, the first of them counted in
+    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true)]
+    every: NonZeroUsize,
 }
 
 impl SequenceArguments {
@@ -112,17 +108,16 @@ impl SequenceArguments {
     }
 
     fn open(&self) -> anyhow::Result<Run> {
-        let mut sequence = Sequence::open(&self.files)?;
+        let sequence = Sequence::open(&self.files)?;
         for note in sequence.notes() {
             eprintln!("note: {note}");
         }
-        let Some(range) = &self.frames else {
-            return Ok(Run { sequence, first: 0 });
-        };
-        let range =
-            range.within(sequence.len()).map_err(|what| WrongArguments(format!("--frames: {what}")))?;
-        sequence.select(range.clone());
-        Ok(Run { sequence, first: range.start })
+        let count = sequence.len();
+        let wrong = |what| WrongArguments(format!("--frames: {what}"));
+        let range = self.frames.map_or(Ok(0..count), |range| range.within(count)).map_err(wrong)?;
+        let mut run = Run::whole(sequence);
+        run.select(range, self.every.get());
+        Ok(run)
     }
 }
 
@@ -153,11 +148,6 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> ExitCode {
     };
     eprintln!("error: {}", one_line(&error));
     ExitCode::from(if error.is::<WrongArguments>() { 2 } else { 1 })
-}
-
-/// An error with its causes, on one line.
-fn one_line(error: &anyhow::Error) -> String {
-    format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {

@@ -1,19 +1,14 @@
-//! `sphcast render`: pictures without a window.
+//! `sphcast render`: frames to picture files.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 
 use anyhow::{Context, bail};
-use renderer::{Picture, Renderer, Scene, Stats};
+use renderer::Renderer;
 
-use super::film::{Fatal, Film};
-use super::interrupt::Interrupt;
-use super::output::Output;
-use super::timed::Timed;
+use super::console::Console;
 use super::{DeviceArguments, SequenceArguments, ViewArguments, WrongArguments};
-use crate::frames::FrameSource;
-use crate::image_file::{self, Format, Pixels};
-use crate::overlay::{self, Lettering};
+use crate::export::{Film, Listener, Made, Output, Overlay, Pictures, Shard, StatsFile};
+use crate::image_file::Format;
 
 /// Render frames to picture files, without a window.
 ///
@@ -23,9 +18,21 @@ use crate::overlay::{self, Lettering};
 With several frames --out and --overlay have a number pattern or are directories, and pictures have the numbers of their \
 frames, counted from 0. A frame that cannot be read is told and left out; the exit status is 1 then.
 
+On a cluster, N jobs with --shard 1/N to --shard N/N make all pictures between them: frame number k, counted from 0 \
+among those of --frames and --every, is the job's with I - 1 = k mod N, so that every job gets early frames and late \
+ones, and none more than one frame more than another. Where the view leaves camera, reference length or quantity open, \
+every job looks through all frames first, and all settle for the same; a view that says them saves that time. The file \
+of --stats is named after the part, as in stats-3-of-16.json. A job with no frame to do ends well.
+
+A picture is written whole or not at all, and holds what it was made from (a text chunk of a PNG, an attribute of an \
+EXR, both named `sphcast`): the view with all settings, the name, size and time of change of the frame's file, its \
+number, and the version of the program. With --resume a picture of which all that is as it would be now is left as it \
+is, and everything else is made anew; so are pictures without that text. Without --resume all are.
+
 Examples:
   sphcast render frame.vtu --view view.json --out frame.png --overlay cells.png
-  sphcast render run/ --frames 10..20 --size 1024x1024 --out 'out-{:04}.exr' --stats stats.json")]
+  sphcast render run/ --frames 10..20 --size 1024x1024 --out 'out-{:04}.exr' --stats stats.json
+  sphcast render run/ --view view.json --out frames/ --shard $SLURM_ARRAY_TASK_ID/16 --resume")]
 pub struct RenderArguments {
     #[command(flatten)]
     sequence: SequenceArguments,
@@ -40,117 +47,48 @@ pub struct RenderArguments {
     /// Write what the pictures cost: sizes, evaluations, milliseconds; renders each once more in full, to count
     #[arg(long, value_name = "PATH.json")]
     stats: Option<PathBuf>,
+    /// Make only part I of N of the pictures, 1/N to N/N: for several jobs or computers at a time
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Leave pictures as they are that are there and made from this very view, frame and program
+    #[arg(long)]
+    resume: bool,
     #[command(flatten)]
     device: DeviceArguments,
 }
 
 pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
-    let interrupt = Interrupt::listen();
+    let console = Console::listen()?;
     let run = arguments.sequence.open()?;
     let view = arguments.view.resolve(&run.sequence)?;
     let frames = run.sequence.len();
-    let output = Output::new("--out", &arguments.out, frames, &[Format::Png, Format::Exr])?;
-    let overlay = arguments.overlay.as_ref().map(|path| Overlay::new(path, frames, &output)).transpose()?;
-    output.prepare()?;
-    overlay.iter().try_for_each(|overlay| overlay.output.prepare())?;
+    let wrong = |flag| move |what| WrongArguments(format!("{flag}: {what}"));
+    let output = Output::new(&arguments.out, frames, &[Format::Png, Format::Exr]).map_err(wrong("--out"))?;
+    let overlay = arguments.overlay.as_ref().map(|path| Overlay::new(path, frames, &output));
+    let overlay = overlay.transpose().map_err(wrong("--overlay"))?;
+    let stats = arguments.stats.as_ref().map(|path| {
+        let path = arguments.shard.map_or_else(|| path.clone(), |shard| shard.own(path));
+        StatsFile::new(path, frames > 1, arguments.resume)
+    });
     let renderer = Renderer::new(arguments.device.open()?).context("sphcast")?;
+    let mut pictures = Pictures { renderer, output, overlay, stats, resumes: arguments.resume };
+    pictures.prepare()?;
 
-    let sources: Vec<Arc<Timed>> = run.sequence.frame_sources().into_iter().map(Timed::new).collect();
-    let streamed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
-    let mut film = Film::new(run, view, streamed, interrupt)?;
-    let wanted = arguments.stats.is_some();
-    let mut job = Job { output, overlay, renderer, sources, stats: wanted.then(Vec::new) };
-    let failed = film.each(|film, index| job.picture(film, index))?;
-    if let (Some(path), Some(stats)) = (&arguments.stats, &job.stats) {
-        write_stats(path, stats, film.len() > 1)?;
+    let mut film = Film::new(run, view, arguments.shard, console.clone());
+    let mut kept = 0;
+    let result = film.each(|film, index| {
+        kept += usize::from(pictures.make(film, index)? == Made::Kept);
+        Ok(())
+    });
+    console.clear();
+    let failed = result?;
+    if kept > 0 {
+        console.say(&format!("note: {kept} of {} pictures were there and are left as they are", film.len()));
     }
+    // Also where no picture is new.
+    pictures.stats.map_or(Ok(()), |stats| stats.write())?;
     match failed.as_slice() {
         [] => Ok(()),
         [first, ..] => bail!("{first}: no picture: {} of {} frames failed", failed.len(), film.len()),
     }
-}
-
-/// Where pictures of the classes of the cells go.
-struct Overlay {
-    output: Output,
-    lettering: Lettering,
-}
-
-impl Overlay {
-    fn new(path: &Path, frames: usize, pictures: &Output) -> Result<Overlay, WrongArguments> {
-        let output = Output::new("--overlay", path, frames, &[Format::Png])?;
-        if output == *pictures {
-            let what = "is where --out writes the pictures themselves";
-            return Err(WrongArguments(format!("--overlay: {}: {what}", path.display())));
-        }
-        Ok(Overlay { output, lettering: Lettering::default() })
-    }
-}
-
-struct Job {
-    output: Output,
-    overlay: Option<Overlay>,
-    renderer: Renderer,
-    sources: Vec<Arc<Timed>>,
-    /// Of the pictures so far, where they are asked for.
-    stats: Option<Vec<Stats>>,
-}
-
-impl Job {
-    /// Renders and writes one picture.
-    fn picture(&mut self, film: &mut Film, index: usize) -> anyhow::Result<()> {
-        let frame = film.frame(index)?;
-        let content = film.content(index, &frame)?;
-        let scene = content.scene(&content.view).with_context(|| film.name(index).to_owned())?;
-        let adaptive = scene.sampling.tolerance.is_some();
-        let counted = adaptive && self.stats.is_some();
-        let part = if counted { 0.5 } else { 1.0 };
-        let (picture, cells) = match self.overlay {
-            None => (film.render(&mut self.renderer, &scene, index, 0.0..part)?, None),
-            Some(_) => {
-                let (picture, cells) =
-                    film.render_with_cells(&mut self.renderer, &scene, index, 0.0..part)?;
-                (picture, Some(cells))
-            }
-        };
-        let Picture { width, height, pixels, mut stats } = picture;
-        if counted {
-            stats.evaluations.full = self.full_evaluations(film, scene, index, part)?;
-        }
-        let pixels = Pixels { width, height, data: pixels };
-        let write = |output: &Output, pixels: &Pixels| {
-            let path = output.path(film.number(index));
-            image_file::write(&path, pixels, film.view().image.background)
-                .map_err(|error| Fatal(format!("{error:#}")))
-        };
-        write(&self.output, &pixels)?;
-        if let (Some(overlay), Some(cells)) = (&mut self.overlay, &cells) {
-            write(&overlay.output, &overlay::drawn_over(&pixels, cells, &mut overlay.lettering))?;
-        }
-        stats.milliseconds.read = self.sources[index].milliseconds();
-        stats.milliseconds.total += stats.milliseconds.read;
-        self.stats.iter_mut().for_each(|all| all.push(stats.clone()));
-        Ok(())
-    }
-
-    /// What full sampling computes for `scene`. An adaptive picture cannot know, so it is rendered once
-    /// more; that does not count for its time.
-    fn full_evaluations(
-        &mut self,
-        film: &Film,
-        mut scene: Scene,
-        index: usize,
-        begun: f32,
-    ) -> anyhow::Result<u64> {
-        scene.sampling.tolerance = None;
-        Ok(film.render(&mut self.renderer, &scene, index, begun..1.0)?.stats.evaluations.full)
-    }
-}
-
-fn write_stats(path: &Path, stats: &[Stats], several: bool) -> anyhow::Result<()> {
-    let text = match (several, stats) {
-        (false, [only]) => serde_json::to_string_pretty(only),
-        _ => serde_json::to_string_pretty(stats),
-    };
-    image_file::write_whole(path, format!("{}\n", text?).as_bytes())
 }

@@ -92,12 +92,12 @@ impl Sequence {
         self.sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect()
     }
 
-    /// Keeps the frames `range` only.
+    /// Keeps the frames in these places only.
     ///
     /// # Panics
-    /// Where the range goes past the end.
-    pub fn select(&mut self, range: std::ops::Range<usize>) {
-        self.sources = self.sources[range].to_vec();
+    /// Where a place is past the end.
+    pub fn select(&mut self, places: impl Iterator<Item = usize>) {
+        self.sources = places.map(|place| Arc::clone(&self.sources[place])).collect();
     }
 
     fn add(&mut self, argument: &Path) -> Result<(), SequenceError> {

@@ -4,8 +4,8 @@ use anyhow::Context;
 use renderer::{Picture, Renderer, Scene, Stats, View};
 
 use super::settings::Setting;
-use crate::cli::film::{Content, Film};
 use crate::difference::{Difference, difference};
+use crate::export::{Content, Film};
 use crate::frames::Frame;
 use crate::image_file::Pixels;
 

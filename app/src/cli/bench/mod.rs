@@ -22,12 +22,11 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use renderer::Renderer;
 
-use super::film::Film;
-use super::interrupt::Interrupt;
-use super::output::Output;
+use super::console::Console;
 use super::say::say;
 use super::view::{Tolerance, tolerance};
 use super::{DeviceArguments, SequenceArguments, ShownArguments};
+use crate::export::{Film, Output};
 use measure::Measurement;
 use report::Report;
 use settings::Setting;
@@ -73,7 +72,6 @@ pub struct BenchArguments {
 }
 
 pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
-    let interrupt = Interrupt::listen();
     let run = arguments.sequence.open()?;
     let view = arguments.shown.resolve(&run.sequence)?;
     if arguments.discretisation {
@@ -89,9 +87,10 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let mut measurement = Measurement::new(settings, rounds, arguments.discretisation, [renderer, counting]);
 
     let name = arguments.sequence.name();
-    let sources = run.sequence.frame_sources();
-    let mut film = Film::new(run, view, sources, interrupt)?;
+    let console = Console::listen()?;
+    let mut film = Film::new(run, view, None, console.clone());
     let result = film.each(|film, index| measurement.frame(film, index));
+    console.clear();
     // Whatever ended the measurement, what it has found so far is worth having.
     if let Some(report) = Report::new(name, &measurement, &film) {
         tell(&report)?;

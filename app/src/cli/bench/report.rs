@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::measure::Measurement;
 use super::summary::Summary;
 use super::{csv, plot};
-use crate::cli::film::Film;
+use crate::export::Film;
 use crate::image_file;
 
 /// Everything: `bench.json`.

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use super::WrongArguments;
 use crate::image_file::Format;
 use crate::io_error::describe;
 
@@ -21,11 +20,14 @@ pub enum Output {
 }
 
 impl Output {
-    /// Understands what `flag` says for `frames` pictures in one of `formats`: a pattern where it holds
+    /// Understands what `path` says for `frames` pictures in one of `formats`: a pattern where it holds
     /// `{}`, `{:4}` or `{:04}`; a directory where there is one, or where the name has no ending or closes
     /// with a slash.
-    pub fn new(flag: &str, path: &Path, frames: usize, formats: &[Format]) -> Result<Output, WrongArguments> {
-        let wrong = |what: &str| WrongArguments(format!("{flag}: {}: {what}", path.display()));
+    ///
+    /// # Errors
+    /// The path, and why it does not do.
+    pub fn new(path: &Path, frames: usize, formats: &[Format]) -> Result<Output, String> {
+        let wrong = |what: &str| format!("{}: {what}", path.display());
         let text = path.to_string_lossy();
         if path.is_dir() || path.extension().is_none() || text.ends_with(['/', std::path::MAIN_SEPARATOR]) {
             return Ok(Output::Directory(path.to_owned()));
@@ -78,8 +80,8 @@ fn width(inside: &str) -> Option<usize> {
 mod tests {
     use super::*;
 
-    fn output(path: &str, frames: usize) -> Result<Output, WrongArguments> {
-        Output::new("--out", Path::new(path), frames, &[Format::Png, Format::Exr])
+    fn output(path: &str, frames: usize) -> Result<Output, String> {
+        Output::new(Path::new(path), frames, &[Format::Png, Format::Exr])
     }
 
     #[test]
@@ -98,7 +100,7 @@ mod tests {
         {
             assert!(output(wrong, frames).is_err(), "{wrong}");
         }
-        let only_png = Output::new("--overlay", Path::new("a.exr"), 1, &[Format::Png]).unwrap_err();
-        assert_eq!(only_png.0, "--overlay: a.exr: a picture's name ends in .png");
+        let only_png = Output::new(Path::new("a.exr"), 1, &[Format::Png]).unwrap_err();
+        assert_eq!(only_png, "a.exr: a picture's name ends in .png");
     }
 }

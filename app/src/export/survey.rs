@@ -3,17 +3,21 @@
 use renderer::{Bounds, Camera, View};
 
 use crate::frames::Frame;
-use crate::scene;
+use crate::scene::{self, Selection};
 
 /// Room that the particles of the frames seen so far take, in the unit of the run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Survey {
     bounds: Option<Bounds>,
     largest_radius: f64,
+    /// What the first frame with particles shows, where the view does not say.
+    quantity: Option<Option<String>>,
 }
 
 impl Survey {
+    /// Looks at the next frame of the run.
     pub fn add(&mut self, frame: &Frame, view: &View) {
+        self.add_quantity(frame);
         // A frame that makes no particle set fails when it is rendered, and is told then.
         let Ok(particles) = scene::particles(frame, view.particles.support_radius) else {
             return;
@@ -23,6 +27,19 @@ impl Survey {
             (all, new) => all.or(new),
         };
         self.largest_radius = self.largest_radius.max(particles.support_radii()[1]);
+    }
+
+    /// Looks only at what the frame shows. Returns whether that says what the run shows.
+    pub fn add_quantity(&mut self, frame: &Frame) -> bool {
+        if self.quantity.is_none() && !frame.is_empty() {
+            self.quantity = Some(Selection::default_of(frame).name());
+        }
+        self.quantity.is_some()
+    }
+
+    /// What all frames show where the view does not say; `None` where each shows its own.
+    pub fn quantity(&self) -> Option<String> {
+        self.quantity.clone().flatten()
     }
 
     /// Fills in the camera and the reference length that `view` leaves open, as

@@ -4,26 +4,52 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use anyhow::{Context, bail};
-use indicatif::{ProgressBar, ProgressStyle};
 use renderer::{CellMap, ParticleSet, Picture, Progress, Quantity, RenderError, Renderer, Scene, View};
 
-use super::Run;
-use super::interrupt::{INTERRUPTED, Interrupt};
+use super::listener::{INTERRUPTED, Listener, Stage};
 use super::survey::Survey;
-use crate::frames::{Frame, FrameSource, FrameStream};
+use super::timed::Timed;
+use super::{Shard, one_line};
+use crate::frames::{Frame, FrameSource, FrameStream, Sequence, Source};
 use crate::scene::{self, Selection};
 
 /// Bytes of frames that are read ahead.
 const READ_AHEAD: usize = 1 << 30;
 
-/// The frames of a run, the view they are shown in, and how far the work on them is.
+/// Frames of an opened run.
+pub struct Run {
+    pub sequence: Sequence,
+    /// The number of each of them in the whole run.
+    pub numbers: Vec<usize>,
+}
+
+impl Run {
+    /// All frames of `sequence`.
+    pub fn whole(sequence: Sequence) -> Run {
+        Run { numbers: (0..sequence.len()).collect(), sequence }
+    }
+
+    /// Keeps every `step`-th frame of a range.
+    ///
+    /// # Panics
+    /// Where the range goes past the end, or `step` is 0.
+    pub fn select(&mut self, range: Range<usize>, step: usize) {
+        self.sequence.select(range.clone().step_by(step));
+        self.numbers = range.step_by(step).map(|place| self.numbers[place]).collect();
+    }
+}
+
+/// The frames of a run, or a part of them, and the view they are shown in.
 pub struct Film {
     run: Run,
+    /// Places in the run of the frames that are worked on.
+    part: Vec<usize>,
     view: View,
+    sources: Vec<Arc<Timed>>,
+    /// Of the part.
     stream: FrameStream,
-    interrupt: Interrupt,
-    bar: ProgressBar,
-    /// What the first frame shows where the view does not say; later frames show the same.
+    listener: Arc<dyn Listener>,
+    /// What the first frame of the run shows where the view does not say; the others show the same.
     quantity: Option<String>,
 }
 
@@ -41,37 +67,64 @@ pub struct Content {
 pub struct Fatal(pub String);
 
 impl Film {
-    /// Frames are read from `sources`, one for each of the run.
-    pub fn new(
-        run: Run,
-        view: View,
-        sources: Vec<Arc<dyn FrameSource>>,
-        interrupt: Interrupt,
-    ) -> anyhow::Result<Film> {
-        let bar = bar(sources.len())?;
-        let stream = FrameStream::new(sources, READ_AHEAD, || {});
-        Ok(Film { run, view, stream, interrupt, bar, quantity: None })
+    /// The frames of `run` that are `shard`'s, or all of them. What they have in common is that of the whole
+    /// run, whatever the part.
+    pub fn new(run: Run, view: View, shard: Option<Shard>, listener: Arc<dyn Listener>) -> Film {
+        let taken = |place: &usize| shard.is_none_or(|shard| shard.takes(*place));
+        let part: Vec<usize> = (0..run.sequence.len()).filter(taken).collect();
+        let all = run.sequence.frame_sources();
+        let sources: Vec<Arc<Timed>> =
+            part.iter().map(|&place| Timed::new(Arc::clone(&all[place]))).collect();
+        let streamed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
+        let stream = FrameStream::new(streamed, READ_AHEAD, || {});
+        Film { run, part, view, sources, stream, listener, quantity: None }
     }
 
+    /// Number of frames that are worked on.
     pub fn len(&self) -> usize {
-        self.stream.len()
+        self.part.len()
     }
 
     /// The number that frame `index` has in the whole run.
     pub fn number(&self, index: usize) -> usize {
-        self.run.first + index
+        self.run.numbers[self.part[index]]
+    }
+
+    pub fn source(&self, index: usize) -> &Source {
+        &self.run.sequence.sources()[self.part[index]]
     }
 
     pub fn name(&self, index: usize) -> &str {
-        &self.run.sequence.sources()[index].name
+        &self.source(index).name
+    }
+
+    /// How long reading frame `index` took.
+    pub fn read_milliseconds(&self, index: usize) -> f64 {
+        self.sources[index].milliseconds()
     }
 
     pub fn view(&self) -> &View {
         &self.view
     }
 
+    /// The view with what the frames have in common, once that is known: alike for all of them.
+    pub fn common_view(&self) -> View {
+        let mut view = self.view.clone();
+        view.quantity.name = view.quantity.name.or_else(|| self.quantity.clone());
+        view
+    }
+
     pub fn interrupted(&self) -> bool {
-        self.interrupt.asked()
+        self.listener.wants_end()
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        if self.interrupted() { bail!(INTERRUPTED) } else { Ok(()) }
+    }
+
+    /// Whether there is more than one frame in the run, of which some may fail.
+    fn is_sequence(&self) -> bool {
+        self.run.sequence.len() > 1
     }
 
     /// Does `work` on every frame, and returns the names of those that failed. Each is told when it
@@ -80,9 +133,8 @@ impl Film {
         &mut self,
         mut work: impl FnMut(&mut Film, usize) -> anyhow::Result<()>,
     ) -> anyhow::Result<Vec<String>> {
-        let result = self.settle().and_then(|()| self.go_through(&mut work));
-        self.bar.finish_and_clear();
-        result
+        self.settle()?;
+        self.go_through(&mut work)
     }
 
     fn go_through(
@@ -91,16 +143,16 @@ impl Film {
     ) -> anyhow::Result<Vec<String>> {
         let mut failed = Vec::new();
         for index in 0..self.len() {
-            self.interrupt.check()?;
+            self.check()?;
             match work(self, index) {
                 Ok(()) => {}
-                Err(error) if self.len() == 1 || error.is::<Fatal>() => return Err(error),
+                Err(error) if !self.is_sequence() || error.is::<Fatal>() => return Err(error),
                 Err(error) => {
-                    self.say(&format!("warning: {}", super::one_line(&error)));
+                    self.say(&format!("warning: {}", one_line(&error)));
                     failed.push(self.name(index).to_owned());
                 }
             }
-            show(&self.bar, index, 1.0);
+            self.show(Stage::Pictures, index, 1.0);
         }
         Ok(failed)
     }
@@ -108,12 +160,13 @@ impl Film {
     /// Gives the view of several frames what must not change from one to the next, or the film would
     /// flicker: a camera that has the whole run in view, and a reference length.
     fn settle(&mut self) -> anyhow::Result<()> {
-        if self.len() == 1 {
+        if !self.is_sequence() || self.len() == 0 {
             return Ok(());
         }
         let camera = self.view.camera.is_some_and(|camera| camera.is_settled());
-        if !camera || self.view.transfer.reference_length.is_none() {
-            self.survey()?;
+        let settled = camera && self.view.transfer.reference_length.is_some();
+        if !settled || self.view.quantity.name.is_none() {
+            self.survey(settled)?;
         }
         if self.view.quantity.range.is_none() {
             self.say(
@@ -123,19 +176,30 @@ impl Film {
         Ok(())
     }
 
-    fn survey(&mut self) -> anyhow::Result<()> {
+    /// Looks through the frames of the whole run; for the quantity only, no farther than the first that tells.
+    fn survey(&mut self, quantity_only: bool) -> anyhow::Result<()> {
+        let count = self.run.sequence.len();
+        // What a part reads ahead would not do for the whole.
+        let whole = (self.len() < count)
+            .then(|| FrameStream::new(self.run.sequence.frame_sources(), READ_AHEAD, || {}));
+        let stream = whole.as_ref().unwrap_or(&self.stream);
         let mut survey = Survey::default();
-        self.bar.set_message("looking through the frames");
-        for index in 0..self.len() {
-            self.interrupt.check()?;
+        for index in 0..count {
+            self.check()?;
             // A frame that cannot be read is told when its turn comes.
-            if let Ok(frame) = self.stream.wait(index) {
-                survey.add(&frame, &self.view);
+            if let Ok(frame) = stream.wait(index) {
+                match quantity_only {
+                    true if survey.add_quantity(&frame) => break,
+                    true => {}
+                    false => survey.add(&frame, &self.view),
+                }
             }
-            show(&self.bar, index, 1.0);
+            self.listener.show(Stage::Survey, index, 1.0, count);
         }
-        self.bar.set_message("");
-        survey.settle(&mut self.view);
+        self.quantity = survey.quantity();
+        if !quantity_only {
+            survey.settle(&mut self.view);
+        }
         Ok(())
     }
 
@@ -150,7 +214,7 @@ impl Film {
     }
 
     /// What `frame`, which is number `index`, shows.
-    pub fn content(&mut self, index: usize, frame: &Frame) -> anyhow::Result<Content> {
+    pub fn content(&self, index: usize, frame: &Frame) -> anyhow::Result<Content> {
         let name = self.name(index).to_owned();
         let mut view = self.view.clone();
         if view.quantity.name.is_none() {
@@ -163,24 +227,21 @@ impl Film {
         Ok(content)
     }
 
-    /// The quantity of a frame where the view names none: that of the frames before it, or the
-    /// frame's own where it lacks that.
-    fn quantity_of(&mut self, frame: &Frame, name: &str) -> Option<String> {
+    /// The quantity of a frame where the view names none: that of the run, or the frame's own where it
+    /// lacks that.
+    fn quantity_of(&self, frame: &Frame, name: &str) -> Option<String> {
         let own = Selection::default_of(frame).name();
         if frame.is_empty() {
             return None;
         }
         match &self.quantity {
-            Some(before) if Selection::new(frame, Some(before)).is_ok() => Some(before.clone()),
-            Some(before) => {
+            Some(common) if Selection::new(frame, Some(common)).is_ok() => Some(common.clone()),
+            Some(common) => {
                 let shown = own.as_deref().unwrap_or("particles alike");
-                self.say(&format!("warning: {name}: has no field `{before}`; shows {shown}"));
+                self.say(&format!("warning: {name}: has no field `{common}`; shows {shown}"));
                 own
             }
-            None => {
-                self.quantity.clone_from(&own);
-                own
-            }
+            None => own,
         }
     }
 
@@ -214,8 +275,8 @@ impl Film {
         work: impl FnOnce(&mut Progress) -> Result<T, RenderError>,
     ) -> anyhow::Result<T> {
         let mut progress = |share: f32| {
-            show(&self.bar, index, part.start + share * (part.end - part.start));
-            if self.interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            self.show(Stage::Pictures, index, part.start + share * (part.end - part.start));
+            if self.interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let name = self.name(index);
         match work(&mut progress) {
@@ -225,9 +286,12 @@ impl Film {
         }
     }
 
-    /// A line on standard error that does not tear the progress bar.
-    fn say(&self, line: &str) {
-        self.bar.suspend(|| eprintln!("{line}"));
+    fn show(&self, stage: Stage, index: usize, share: f32) {
+        self.listener.show(stage, index, share, self.len());
+    }
+
+    pub fn say(&self, line: &str) {
+        self.listener.say(line);
     }
 }
 
@@ -243,20 +307,4 @@ impl Content {
     pub fn scene(&self, view: &View) -> anyhow::Result<Scene> {
         Ok(Scene::new(Arc::clone(&self.particles), Arc::clone(&self.quantity), view)?)
     }
-}
-
-/// Steps of the progress bar for one frame.
-const STEPS: u64 = 1000;
-
-/// A bar over `frames` frames, on standard error if that is a terminal.
-fn bar(frames: usize) -> anyhow::Result<ProgressBar> {
-    let bar = ProgressBar::new(frames as u64 * STEPS);
-    let template = "{bar:40} {percent:>3} %  {elapsed} gone, {eta} to go  {msg}";
-    bar.set_style(ProgressStyle::with_template(template)?);
-    Ok(bar)
-}
-
-/// Shows that frame `index` is done to the `share`.
-fn show(bar: &ProgressBar, index: usize, share: f32) {
-    bar.set_position(index as u64 * STEPS + (share * STEPS as f32) as u64);
 }
