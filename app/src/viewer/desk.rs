@@ -121,6 +121,8 @@ impl Desk {
         if self.session.view != before && ui.input(|input| input.pointer.any_down()) {
             self.session.touch(now);
         }
+        let held = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
+        self.session.remember(now, held);
         self.session.poll(now);
         if let Some(job) = self.session.job(now, room) {
             self.render.submit(job);
@@ -171,6 +173,8 @@ impl Desk {
             }
             Action::QuickSave => self.quick_save(),
             Action::MeasureError => self.measure_error(),
+            Action::Undo => session.undo(),
+            Action::Redo => session.redo(),
             Action::PlayPause => session.toggle_playing(),
             Action::StepForward | Action::StepBack => {
                 session.playback.pause();

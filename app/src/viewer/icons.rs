@@ -1,4 +1,4 @@
-//! Signs of the transport buttons, drawn as shapes so that they are sharp and of one weight.
+//! Signs on buttons, drawn as shapes so that they are sharp and of one weight.
 
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -14,6 +14,8 @@ pub enum Icon {
     Last,
     Loop,
     Cross,
+    Undo,
+    Redo,
 }
 
 /// A square button with a sign on it; `on` for a switch that is on.
@@ -46,6 +48,18 @@ fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
     let triangle = |x: f32, to: f32| {
         let points = vec![at(x, -5.5), at(x + to, 0.0), at(x, 5.5)];
         painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
+    };
+    // An arrow that comes round from below; its head points to the left for −1, to the right for 1.
+    let turn_back = |side: f32| {
+        let stroke = Stroke::new(1.4, colour);
+        let arc = (0..=12).map(|part| {
+            let (sin, cos) = (std::f32::consts::PI * part as f32 / 12.0).sin_cos();
+            at(-side * (1.5 + 3.5 * sin), 1.0 - 3.5 * cos)
+        });
+        let ends = [at(side * 1.5, -2.5), at(side * 2.5, 4.5)];
+        painter.line([ends[0]].into_iter().chain(arc).chain([ends[1]]).collect(), stroke);
+        let head = vec![at(side * 1.5, -5.7), at(side * 6.0, -2.5), at(side * 1.5, 0.7)];
+        painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
     };
     match icon {
         Icon::Play => triangle(-3.5, 9.0),
@@ -83,5 +97,7 @@ fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
             painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke);
         }
+        Icon::Undo => turn_back(-1.0),
+        Icon::Redo => turn_back(1.0),
     }
 }

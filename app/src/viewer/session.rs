@@ -1,5 +1,6 @@
 //! The state of the program: run, playhead, view, messages. Knows no window and no egui.
 
+mod history;
 mod picture;
 mod wish;
 
@@ -18,6 +19,7 @@ use super::overlay::Overlay;
 use super::playback::{Arrival, Playback};
 use super::render_thread::Job;
 use super::run::Run;
+use history::History;
 pub use picture::PictureFacts;
 
 /// Where the range of the transfer function comes from.
@@ -66,6 +68,7 @@ pub struct Session {
     asked: Option<Job>,
     /// Room for the picture in the window, in physical pixels.
     room: [u32; 2],
+    history: History,
     /// Lines for whoever follows the program from outside.
     events: Vec<String>,
 }
@@ -97,6 +100,7 @@ impl Session {
             moving_until: None,
             asked: None,
             room: [0, 0],
+            history: History::default(),
             events: Vec::new(),
         };
         session.adopt(view);
@@ -115,6 +119,7 @@ impl Session {
         self.run = Some(run);
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
         self.probe = None;
+        self.history = History::default();
         self.seen.clear();
         self.told.clear();
         self.told_left_out.clear();
@@ -310,7 +315,7 @@ impl Session {
     /// When to look again although nothing happens.
     pub fn due(&self, now: Instant) -> Option<Instant> {
         let settled = self.moving_until.filter(|until| now < *until);
-        [settled, self.playback.due(), self.messages.due()].into_iter().flatten().min()
+        [settled, self.playback.due(), self.messages.due(), self.step_due()].into_iter().flatten().min()
     }
 
     pub fn log(&mut self, event: impl Into<String>) {

@@ -1,3 +1,5 @@
+use std::time::{Duration, Instant};
+
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use renderer::Stats;
@@ -59,4 +61,17 @@ fn without_a_scene_there_is_no_camera_to_move() {
     assert!(harness.get_by_label("Reset").accesskit_node().is_disabled());
     assert!(called(&mut harness, &["Reset", "+X", "Fly"]).is_empty());
     assert_eq!(called(&mut harness, &["Help"]), [Action::Help]);
+}
+
+#[test]
+fn undo_can_be_pressed_when_there_is_something_to_undo() {
+    let mut harness = bar(fluid());
+    let (session, _) = harness.state_mut();
+    let now = Instant::now();
+    session.remember(now, false);
+    session.view.sampling.rate = 2.0;
+    session.remember(now, false);
+    session.remember(now + Duration::from_secs(1), false);
+    harness.run();
+    assert_eq!(called(&mut harness, &["Undo  (Ctrl+Z)"]), [Action::Undo]);
 }

@@ -2,9 +2,10 @@
 
 use egui::{Align, Button, Layout, Response, Ui};
 
+use crate::viewer::icons::{self, Icon};
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint};
+use crate::viewer::shortcuts::{Action, hint, keys};
 use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
 
@@ -19,6 +20,8 @@ pub struct Modes {
 pub fn show(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Action>) {
     ui.horizontal_centered(|ui| {
         files(ui, actions);
+        gap(ui);
+        steps(ui, session, actions);
         gap(ui);
         let ready = session.camera.is_some();
         ui.add_enabled_ui(ready, |ui| camera(ui, modes, actions));
@@ -43,6 +46,21 @@ fn files(ui: &mut Ui, actions: &mut Vec<Action>) {
         item(ui, "Save picture…", Action::SavePicture, actions);
         item(ui, "Save picture and view in this folder", Action::QuickSave, actions);
     });
+}
+
+/// Back and forth through what was changed.
+fn steps(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
+    ui.spacing_mut().item_spacing.x = 2.0;
+    let buttons = [
+        (Icon::Undo, "Undo", Action::Undo, session.can_undo()),
+        (Icon::Redo, "Redo", Action::Redo, session.can_redo()),
+    ];
+    for (icon, name, action, possible) in buttons {
+        let name = format!("{name}  ({})", keys(ui.ctx(), action));
+        if icons::button(ui, icon, &name, false, possible).clicked() {
+            actions.push(action);
+        }
+    }
 }
 
 fn camera(ui: &mut Ui, modes: Modes, actions: &mut Vec<Action>) {
@@ -83,8 +101,7 @@ fn call(ui: &mut Ui, button: Button<'_>, action: Action, actions: &mut Vec<Actio
 
 /// A line of a menu, with its keys at the right edge.
 fn item(ui: &mut Ui, label: &str, action: Action, actions: &mut Vec<Action>) {
-    let keys = crate::viewer::shortcuts::keys(ui.ctx(), action);
-    if ui.add(Button::new(label).shortcut_text(keys)).accessible_name(label).clicked() {
+    if ui.add(Button::new(label).shortcut_text(keys(ui.ctx(), action))).accessible_name(label).clicked() {
         actions.push(action);
         ui.close();
     }
