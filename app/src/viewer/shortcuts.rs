@@ -66,7 +66,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     key("Files", CTRL, Key::E, Action::SavePicture, "Save the picture"),
     key("Files", CTRL_SHIFT, Key::E, Action::QuickSave, "Save both in this folder"),
     key("Files", CTRL, Key::Q, Action::Quit, "Quit"),
-    key("Picture", CTRL, Key::Z, Action::Undo, "Undo the last change of settings or camera"),
+    key("Picture", CTRL, Key::Z, Action::Undo, "Undo a change of settings or camera"),
     key("Picture", CTRL_SHIFT, Key::Z, Action::Redo, "Redo what was undone"),
     key("Picture", CTRL, Key::Y, Action::Redo, ""),
     key("Time", NONE, Key::Space, Action::PlayPause, "Play or pause"),

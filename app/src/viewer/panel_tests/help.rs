@@ -17,6 +17,8 @@ fn opened() -> Harness<'static, bool> {
         true,
     );
     harness.run();
+    // Only now is it known how large the list is, and where it belongs.
+    harness.run();
     harness
 }
 
