@@ -1,6 +1,7 @@
 //! Session, threads, dialogs and panels at work together: one call a frame.
 
 mod files;
+mod looking;
 mod measuring;
 
 use std::path::PathBuf;
@@ -16,6 +17,7 @@ use crate::frames::Sequence;
 use super::analysis::Analysis;
 use super::dialogs::{self, Dialogs, Purpose};
 use super::export::Export;
+use super::field_ranges::FieldRanges;
 use super::measurement::Measurement;
 use super::panels::inspector::Inspector;
 use super::panels::sampling::SamplingPanel;
@@ -34,6 +36,7 @@ enum Done {
     ViewRead(PathBuf, anyhow::Result<Box<View>>),
     ViewSaved(PathBuf, anyhow::Result<()>),
     Counted(Analysis),
+    Ranged(FieldRanges),
 }
 
 /// What only the window can do.
@@ -63,6 +66,7 @@ pub struct Desk {
     done: (mpsc::Sender<Done>, mpsc::Receiver<Done>),
     counting: bool,
     finding: bool,
+    looking: looking::Looking,
     gpu: GpuOptions,
     wake: Wake,
     /// Whether a script follows what happens.
@@ -92,6 +96,7 @@ impl Desk {
             done: mpsc::channel(),
             counting: false,
             finding: false,
+            looking: looking::Looking::default(),
             gpu: options.gpu,
             wake,
             log_events: options.log_events,
@@ -130,6 +135,7 @@ impl Desk {
         self.follow_measurement();
         self.escape(ui.ctx());
         self.count();
+        self.look_closer();
         // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
         self.due = self.session.due(now);
         self.tell(ui.ctx());
@@ -238,6 +244,7 @@ impl Desk {
                     self.counting = false;
                     self.session.answer(analysis);
                 }
+                Done::Ranged(ranges) => self.take_field_ranges(ranges),
             }
         }
     }

@@ -7,7 +7,7 @@ use super::measurement::{Measurement, State};
 use super::panels::toolbar::Modes;
 use super::panels::{
     camera, cells, help, image, legend, measured_error, messages, overlay_legend, particles, performance,
-    quantity, saved, timeline, toolbar,
+    quantity, saved, selection, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
@@ -56,10 +56,13 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
 }
 
 fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    let Desk { session, editor, sampling, legend, measurement, .. } = desk;
+    let Desk { session, editor, sampling, legend, measurement, picture, .. } = desk;
     let measurement = measurement.as_ref().map(|measurement| &measurement.state);
     widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
     widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
+    widgets::section(ui, "Clip and filter", false, |ui| {
+        selection::show(ui, session, &mut picture.handles.shown);
+    });
     widgets::section(ui, "Sampling", true, |ui| {
         sampling.show(ui, session);
         saved::show(ui, session);

@@ -11,6 +11,8 @@ mod desk;
 mod dialogs;
 mod error_map;
 mod export;
+mod field_ranges;
+mod handles;
 mod icons;
 mod layers;
 mod layout;

@@ -6,6 +6,7 @@ use egui::{
 };
 use glam::{DVec2, DVec3};
 
+use super::handles::Handles;
 use super::layers::Layers;
 use super::orbit_camera::{OrbitCamera, Screen};
 use super::overlay::Overlay;
@@ -17,6 +18,7 @@ use super::widgets::Areas;
 /// The picture as a texture, and what the mouse does over it.
 pub struct PictureView {
     pub layers: Layers,
+    pub handles: Handles,
     texture: Option<TextureHandle>,
     /// Whether a click looks into the picture.
     pub inspecting: bool,
@@ -31,7 +33,14 @@ const FLY_SPEEDS: [f64; 2] = [0.01, 10.0];
 
 impl PictureView {
     pub fn new() -> PictureView {
-        PictureView { layers: Layers::default(), texture: None, inspecting: false, flying: false, speed: 0.5 }
+        PictureView {
+            layers: Layers::default(),
+            handles: Handles::default(),
+            texture: None,
+            inspecting: false,
+            flying: false,
+            speed: 0.5,
+        }
     }
 
     /// Has in the texture what is to be seen: nearest pixels at full resolution, which is the screen's
@@ -75,6 +84,7 @@ impl PictureView {
             ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
         }
         self.steer(ui, &response, rect, session);
+        self.handles.show(ui, rect, session);
         if self.inspecting {
             probe::pick(ui, &response, rect, session);
         }

@@ -2,6 +2,7 @@
 
 mod history;
 mod picture;
+mod space;
 mod wish;
 
 use std::collections::{BTreeSet, HashMap};
@@ -13,6 +14,7 @@ use renderer::{Bounds, SelectView, View};
 use crate::frames::{Frame, FrameState};
 
 use super::analysis::{Analysis, Question};
+use super::field_ranges::FieldRanges;
 use super::messages::Messages;
 use super::orbit_camera::OrbitCamera;
 use super::overlay::Overlay;
@@ -52,6 +54,9 @@ pub struct Session {
     /// The pixel of the full-size picture whose bundle is looked at.
     pub probe: Option<[u32; 2]>,
     pub analysis: Option<Analysis>,
+    /// Of the fields of a frame, and whether they are wanted.
+    pub field_ranges: Option<FieldRanges>,
+    pub wants_field_ranges: bool,
     /// Adapter's name, and whether it is a program on the CPU.
     pub adapter: Option<(String, bool)>,
     /// Extremes of each quantity over the frames that were in view.
@@ -91,6 +96,8 @@ impl Session {
             overlay: Overlay::default(),
             probe: None,
             analysis: None,
+            field_ranges: None,
+            wants_field_ranges: false,
             adapter: None,
             seen: HashMap::new(),
             told: BTreeSet::new(),

@@ -1,6 +1,7 @@
 //! What a click in each panel changes in the session, and how the panels look.
 
 mod cells;
+mod handles;
 mod help;
 mod inspector;
 mod measured_error;
@@ -10,6 +11,7 @@ mod particles;
 mod quantity;
 mod sampling;
 mod saved;
+mod selection;
 mod timeline;
 mod toolbar;
 

@@ -1,0 +1,27 @@
+//! Where the run is, and where that is in the picture.
+
+use renderer::Bounds;
+
+use super::Session;
+use crate::projection::Projection;
+use crate::scene::Selection;
+use crate::viewer::orbit_camera::Screen;
+
+impl Session {
+    /// Where points of the world are in a picture of this size.
+    pub fn projection(&self, [width, height]: [f64; 2]) -> Option<Projection> {
+        self.camera.map(|camera| camera.projection(Screen { width, height }))
+    }
+
+    /// Around the supports of the particles of all frames pictured so far, selected or not.
+    pub fn scene_bounds(&self) -> Option<Bounds> {
+        let (bounds, margin) = self.extent;
+        bounds.map(|Bounds { min, max }| Bounds { min: min - margin, max: max + margin })
+    }
+
+    /// The name of the quantity in view; `None` where the frame has no field.
+    pub fn shown_quantity(&self) -> Option<String> {
+        let of_frame = || Selection::default_of(&self.frame.as_ref()?.1).name();
+        self.view.quantity.name.clone().or_else(of_frame)
+    }
+}
