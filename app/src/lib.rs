@@ -1,11 +1,13 @@
 //! The sphcast application: frames from files, the command line, and the window.
 
+mod annotate;
 pub mod cli;
 mod difference;
 mod export;
 pub mod frames;
 pub mod image_file;
 mod io_error;
+mod numbers;
 mod overlay;
 pub mod places;
 pub mod projection;

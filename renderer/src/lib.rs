@@ -75,6 +75,6 @@ pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ControlPoint, TransferFunction};
 pub use view::{
-    CameraView, ClipBox, ClipPlane, Filter, ImageView, ParticleView, QuantityView, SamplingView, SelectView,
-    TransferView, View, ViewError,
+    AnnotationsView, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, ParticleView, QuantityView,
+    SamplingView, SelectView, TransferView, View, ViewError,
 };

@@ -1,5 +1,6 @@
 //! `View`: everything that defines a picture, as `view.json` holds it (contract, section 2).
 
+mod annotations;
 mod select;
 
 use glam::DVec3;
@@ -8,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::kernel::Kernel;
 use crate::sampling::Bound;
 use crate::transfer::{ControlPoint, TransferFunction};
+pub use annotations::{AnnotationsView, Ink};
 pub use select::{ClipBox, ClipPlane, Filter, SelectView};
 
 /// The settings of a picture. Every key of the file is optional; unknown keys are errors.
@@ -24,6 +26,9 @@ pub struct View {
     pub select: SelectView,
     pub transfer: TransferView,
     pub sampling: SamplingView,
+    /// Over the picture; without them, saved pictures have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub annotations: Option<AnnotationsView>,
 }
 
 /// Perspective camera. Lengths in the unit of the run, world space right-handed.
@@ -207,6 +212,9 @@ impl View {
         }
         self.select.validate()?;
         self.sampling.validate()?;
+        if let Some(annotations) = &self.annotations {
+            annotations.validate()?;
+        }
         if let Some(length) = self.transfer.reference_length {
             check(positive(length), "transfer.reference_length", || {
                 format!("{length} is not a positive length")

@@ -6,6 +6,7 @@ use anyhow::Context;
 use renderer::{Picture, Renderer, Scene};
 
 use super::{Fatal, Film, Output, StatsFile, record};
+use crate::annotate::Annotations;
 use crate::image_file::{self, Format, Header, Pixels, Rows};
 use crate::overlay::{self, Lettering};
 
@@ -65,7 +66,8 @@ impl Pictures {
         let frame = film.frame(index)?;
         let content = film.content(index, &frame)?;
         let scene = content.scene(&content.view).with_context(|| film.name(index).to_owned())?;
-        self.draw(film, &scene, index, &record)?;
+        let annotations = Annotations::new(&content.view, &scene, &frame, number);
+        self.draw(film, &scene, index, &record, annotations.as_ref())?;
         Ok(Made::Written)
     }
 
@@ -75,7 +77,14 @@ impl Pictures {
         std::iter::once(self.output.path(number)).chain(overlay).collect()
     }
 
-    fn draw(&mut self, film: &Film, scene: &Scene, index: usize, record: &str) -> anyhow::Result<()> {
+    fn draw(
+        &mut self,
+        film: &Film,
+        scene: &Scene,
+        index: usize,
+        record: &str,
+        annotations: Option<&Annotations>,
+    ) -> anyhow::Result<()> {
         let counted = scene.sampling.tolerance.is_some() && self.stats.is_some();
         let part = if counted { 0.5 } else { 1.0 };
         let (picture, cells) = match self.overlay {
@@ -89,7 +98,7 @@ impl Pictures {
         if counted {
             stats.evaluations.full = self.full_evaluations(film, scene.clone(), index, part)?;
         }
-        let pixels = Pixels { width, height, data: pixels };
+        let mut pixels = Pixels { width, height, data: pixels };
         let number = film.number(index);
         let background = film.view().image.background;
         let write = |output: &Output, pixels: &Pixels| {
@@ -102,6 +111,9 @@ impl Pictures {
         // The picture comes last: where it is there, what belongs to it is, too.
         if let (Some(overlay), Some(cells)) = (&mut self.overlay, &cells) {
             write(&overlay.output, &overlay::drawn_over(&pixels, cells, &mut overlay.lettering))?;
+        }
+        if let (Some(annotations), Some(format)) = (annotations, Format::of(&self.output.path(number))) {
+            annotations.draw_onto(&mut pixels, format);
         }
         write(&self.output, &pixels)?;
         stats.milliseconds.read = film.read_milliseconds(index);

@@ -4,6 +4,9 @@ use egui::FontId;
 use egui::epaint::text::{FontDefinitions, Fonts, TextOptions};
 use egui::{Color32, epaint::Vertex};
 
+/// Side of the picture that the letters are kept in: there is room for those of the largest pictures.
+const ATLAS: usize = 8192;
+
 /// Letters, made when they are first needed.
 #[derive(Default)]
 pub struct Lettering {
@@ -22,8 +25,8 @@ pub struct Line {
 impl Lettering {
     /// `text` in letters of `size` pixels.
     pub fn line(&mut self, text: &str, size: f32) -> Line {
-        let fonts =
-            self.fonts.get_or_insert_with(|| Fonts::new(TextOptions::default(), FontDefinitions::default()));
+        let options = TextOptions { max_texture_side: ATLAS, ..TextOptions::default() };
+        let fonts = self.fonts.get_or_insert_with(|| Fonts::new(options, FontDefinitions::default()));
         let mut view = fonts.with_pixels_per_point(1.0);
         let galley = view.layout_no_wrap(text.to_owned(), FontId::proportional(size), Color32::WHITE);
         let atlas = view.image();

@@ -7,7 +7,7 @@ mod marks;
 mod picture;
 mod sheet;
 
-pub use lettering::Lettering;
+pub use lettering::{Lettering, Line};
 pub use looks::look;
 pub use marks::{Depth, Mark, counts};
 pub use picture::drawn_over;

@@ -55,7 +55,6 @@ pub struct Desk {
     /// Of the picture in view.
     pub(super) measurement: Option<Measurement>,
     pub(super) inspector: Inspector,
-    pub(super) legend: bool,
     pub(super) help: bool,
     pub(super) side_panel: bool,
     pub(super) render: RenderThread,
@@ -86,7 +85,6 @@ impl Desk {
             exports: Vec::new(),
             measurement: None,
             inspector: Inspector::default(),
-            legend: true,
             help: false,
             side_panel: true,
             render: RenderThread::spawn(options.gpu.clone(), Wake::clone(&wake)),

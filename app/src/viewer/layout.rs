@@ -6,8 +6,8 @@ use super::desk::Desk;
 use super::measurement::{Measurement, State};
 use super::panels::toolbar::Modes;
 use super::panels::{
-    camera, cells, help, image, legend, measured_error, messages, overlay_legend, particles, performance,
-    quantity, saved, selection, timeline, toolbar,
+    annotations, camera, cells, help, image, measured_error, messages, overlay_legend, particles,
+    performance, quantity, saved, selection, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
@@ -56,7 +56,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
 }
 
 fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    let Desk { session, editor, sampling, legend, measurement, picture, .. } = desk;
+    let Desk { session, editor, sampling, measurement, picture, .. } = desk;
     let measurement = measurement.as_ref().map(|measurement| &measurement.state);
     widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
     widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
@@ -69,7 +69,8 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
         measured_error::show(ui, session, measurement, actions);
     });
     widgets::section(ui, "Cells", true, |ui| cells::show(ui, session, measurement, actions));
-    widgets::section(ui, "Picture", false, |ui| image::show(ui, session, legend, actions));
+    widgets::section(ui, "Picture", false, |ui| image::show(ui, session, actions));
+    widgets::section(ui, "Annotations", false, |ui| annotations::show(ui, session));
     widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
     widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
     widgets::section(ui, "Performance", true, |ui| performance::show(ui, session));
@@ -78,9 +79,7 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
 fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
     let measurement = desk.measurement.as_ref().map(|measurement| &measurement.state);
     let overlaid = overlay_legend::show(ui, &desk.session, &desk.picture.layers, measurement, rect);
-    if !overlaid && desk.legend && desk.session.picture.is_some() {
-        legend::show(ui, &desk.session, rect);
-    }
+    super::annotations::show(ui, &desk.session, rect, !overlaid);
     status(ui, desk, outer);
     tasks(ui, desk, outer);
     messages::show(ui, &mut desk.session, outer);

@@ -6,6 +6,7 @@
 //! - [`desk`] ties the two together with dialogs and [`panels`]; [`window`] is winit and egui.
 
 mod analysis;
+mod annotations;
 mod brush;
 mod desk;
 mod dialogs;

@@ -205,9 +205,9 @@ impl OrbitCamera {
         self.target + self.distance * self.offset()
     }
 
-    /// Unit vectors of the picture's axes: right, up, and towards the viewer.
-    pub fn axes(&self) -> [DVec3; 3] {
-        [self.right(), self.up(), self.offset()]
+    /// From the eye to the target, in the unit of the run.
+    pub fn distance(&self) -> f64 {
+        self.distance
     }
 
     /// Where points of the world are on `screen`.
@@ -295,6 +295,10 @@ mod tests {
         camera.target + camera.lateral(cursor, SCREEN) * camera.distance
     }
 
+    fn axes(camera: &OrbitCamera) -> [DVec3; 3] {
+        [camera.right(), camera.up(), camera.offset()]
+    }
+
     #[test]
     fn the_overview_is_that_of_a_view_without_camera() {
         let view = renderer::Camera::overview(bounds(), 0.1, 0.7);
@@ -369,7 +373,7 @@ mod tests {
                 let mut again = OrbitCamera { yaw: 0.3, ..camera };
                 again.adopt(&camera.to_view());
                 assert_eq!(again.axle, camera.axle, "{axle} {side:?}");
-                for (ours, theirs) in again.axes().into_iter().zip(camera.axes()) {
+                for (ours, theirs) in axes(&again).into_iter().zip(axes(&camera)) {
                     assert!(ours.distance(theirs) < 1e-6, "{axle} {side:?}");
                 }
             }

@@ -1,7 +1,7 @@
 //! The picture in the window, and what the mouse does over it.
 
 use egui::{
-    Align2, Color32, ColorImage, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
+    Color32, ColorImage, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
     TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
 use glam::{DVec2, DVec3};
@@ -89,9 +89,6 @@ impl PictureView {
             probe::pick(ui, &response, rect, session);
         }
         probe::mark(ui, rect, session);
-        if let Some(camera) = &session.camera {
-            triad(ui, rect, camera);
-        }
         rect
     }
 
@@ -180,31 +177,4 @@ fn place(outer: Rect, [width, height]: [u32; 2], pixels_per_point: f32) -> Rect 
     let corner = outer.min + 0.5 * (outer.size() - size).max(egui::Vec2::ZERO);
     let corner = (corner.to_vec2() * pixels_per_point).round() / pixels_per_point;
     Rect::from_min_size(corner.to_pos2(), size)
-}
-
-/// Small axes in the lower left corner: which way the scene is turned.
-fn triad(ui: &Ui, rect: Rect, camera: &OrbitCamera) {
-    if rect.height() < 160.0 {
-        return;
-    }
-    let centre = rect.left_bottom() + vec2(44.0, -44.0);
-    let [right, up, back] = camera.axes();
-    let colours = [(226, 106, 98), (122, 190, 110), (98, 152, 226)];
-    let mut axes: Vec<(DVec3, &str, Color32)> = [DVec3::X, DVec3::Y, DVec3::Z]
-        .into_iter()
-        .zip(["X", "Y", "Z"])
-        .zip(colours)
-        .map(|((axis, name), (r, g, b))| (axis, name, Color32::from_rgb(r, g, b)))
-        .collect();
-    axes.sort_by(|a, b| a.0.dot(back).total_cmp(&b.0.dot(back)));
-    for (axis, name, colour) in axes {
-        let direction = vec2(axis.dot(right) as f32, -axis.dot(up) as f32);
-        let tip = centre + 24.0 * direction;
-        let label = centre + 33.0 * direction;
-        ui.painter().line_segment([centre, tip], Stroke::new(2.0, colour));
-        if direction.length() < 0.3 {
-            continue;
-        }
-        ui.painter().text(label, Align2::CENTER_CENTER, name, theme::small_font(), colour);
-    }
 }

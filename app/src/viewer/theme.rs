@@ -33,7 +33,7 @@ pub const SIDE_WIDTH: f32 = 320.0;
 pub const LABEL_WIDTH: f32 = 96.0;
 pub const ROW_HEIGHT: f32 = 24.0;
 /// Number fields stand under one another.
-const FIELD_WIDTH: f32 = 76.0;
+pub const FIELD_WIDTH: f32 = 76.0;
 pub const GAP: f32 = 6.0;
 pub const MARGIN: i8 = 14;
 const ROUNDING: CornerRadius = CornerRadius::same(4);

@@ -4,6 +4,7 @@ use egui::collapsing_header::CollapsingState;
 use egui::{Align, Align2, Color32, Layout, Response, RichText, Sense, Stroke, Ui, pos2, vec2};
 
 use super::theme;
+pub use crate::numbers::{on_axis, short};
 
 /// Where the parts of the window are that scripts drive it by, for `--log-events`.
 #[derive(Clone, Default, PartialEq)]
@@ -124,28 +125,6 @@ pub fn number<'a>(value: &'a mut f64, scale: f64) -> egui::DragValue<'a> {
     egui::DragValue::new(value).speed(speed).custom_formatter(move |value, _| on_axis(value, scale))
 }
 
-/// Four significant digits, with an exponent where that is shorter.
-pub fn short(value: f64) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
-    let exponent = value.abs().log10().floor();
-    if !(-3.0..6.0).contains(&exponent) {
-        return format!("{value:.3e}");
-    }
-    let decimals = (3.0 - exponent).clamp(0.0, 6.0) as usize;
-    let text = format!("{value:.decimals$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
-
-/// A value on an axis of length `span`, on which what is too small to be seen is zero.
-pub fn on_axis(value: f64, span: f64) -> String {
-    if value.abs() < 1e-6 * span.abs() { "0".into() } else { short(value) }
-}
-
 /// A count with its thousands apart.
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -193,19 +172,6 @@ pub fn bytes(value: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_as_short_as_they_can_be() {
-        assert_eq!(short(0.0), "0");
-        assert_eq!(short(1.0), "1");
-        assert_eq!(short(-0.05), "-0.05");
-        assert_eq!(short(1234.5), "1234");
-        assert_eq!(short(123_456.0), "123456");
-        assert_eq!(short(1.234_56e-8), "1.235e-8");
-        assert_eq!(short(120.0), "120");
-        assert_eq!(on_axis(8.859e-15, 1.0), "0");
-        assert_eq!(on_axis(8.859e-15, 2e-14), "8.859e-15");
-    }
 
     #[test]
     fn counts_are_grouped() {

@@ -63,7 +63,7 @@ impl Desk {
     }
 
     pub(super) fn save_picture(&mut self, path: PathBuf) {
-        let Some((_, frame)) = self.session.frame().cloned() else {
+        let Some(frame) = self.session.frame().cloned() else {
             self.session.complain("There is no frame to save a picture of: open files first");
             return;
         };

@@ -1,5 +1,6 @@
 //! What a click in each panel changes in the session, and how the panels look.
 
+mod annotations;
 mod cells;
 mod handles;
 mod help;

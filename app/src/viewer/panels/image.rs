@@ -17,12 +17,9 @@ const SIZES: [(&str, [u32; 2]); 6] = [
     ("Square  2048 × 2048", [2048, 2048]),
 ];
 
-pub fn show(ui: &mut Ui, session: &mut Session, legend: &mut bool, actions: &mut Vec<Action>) {
+pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
     size(ui, session);
     background(ui, session);
-    widgets::row(ui, "In the window", |ui| {
-        ui.checkbox(legend, "Colour legend").on_hover_text("Shown over the picture, not saved with it");
-    });
     ui.add_space(2.0);
     ui.horizontal(|ui| {
         let width = 0.5 * (ui.available_width() - ui.spacing().item_spacing.x);

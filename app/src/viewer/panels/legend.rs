@@ -1,33 +1,12 @@
-//! The colour legend over the picture: which colour is which value.
+//! A bar of colours over the picture: which colour is which value of what lies over it.
 
+use crate::viewer::{theme, widgets};
 use egui::epaint::Mesh;
 use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
-use renderer::TransferFunction;
-
-use crate::scene::Selection;
-use crate::viewer::session::Session;
-use crate::viewer::{theme, widgets};
-
-use super::transfer_canvas::to_screen;
 
 /// Space above and below the bar.
 const INSET: f32 = 56.0;
 const TICKS: u32 = 4;
-
-pub fn show(ui: &Ui, session: &Session, picture: Rect) {
-    let (Some([low, high]), Some((_, frame))) = (session.range(), session.frame()) else { return };
-    let Ok(transfer) = TransferFunction::new(&session.view.transfer.points) else { return };
-    let name = session.view.quantity.name.clone().or_else(|| Selection::default_of(frame).name());
-    let Some(bar) = place(picture) else { return };
-    gradient(ui, bar, |u| {
-        let [r, g, b, _] = transfer.sample(u);
-        to_screen([r, g, b])
-    });
-    ticks(ui, bar, [low, high]);
-    if let Some(name) = name {
-        title(ui, bar, &name);
-    }
-}
 
 /// Where the bar is, in a picture that has room for it.
 pub fn place(picture: Rect) -> Option<Rect> {

@@ -1,5 +1,6 @@
 //! One panel a file. Panels edit the session's view; what needs the window they ask for by an action.
 
+pub mod annotations;
 pub mod camera;
 pub mod cell_classes;
 pub mod cells;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use renderer::View;
+use renderer::{AnnotationsView, View};
 
 use super::{RangeSource, Session};
 use crate::viewer::render_thread::{Job, Looks};
@@ -39,9 +39,11 @@ impl Session {
         self.asked = None;
     }
 
-    /// The view as the window shows it: as large as there is room.
+    /// The view as the window draws it: as large as there is room, and without what is laid over the
+    /// picture afterwards.
     pub fn drawn_view(&self) -> View {
         let mut view = self.complete_view();
+        view.annotations = None;
         [view.image.width, view.image.height] = self.fitted();
         view
     }
@@ -59,6 +61,25 @@ impl Session {
             true => [width, (high as u32).max(1)],
             false => [((u64::from(height) * across / down) as u32).max(1), height],
         }
+    }
+
+    /// What the window shows over the picture.
+    pub fn annotations(&self) -> AnnotationsView {
+        self.view.annotations.clone().unwrap_or_else(AnnotationsView::of_window)
+    }
+
+    /// Puts `look` in the place of `before`. What was switched on for the first time is meant for saved
+    /// pictures, too.
+    pub fn annotate(&mut self, before: &AnnotationsView, mut look: AnnotationsView) {
+        if look == *before {
+            return;
+        }
+        let items = |look: &AnnotationsView| {
+            [look.colour_bar, look.axes, look.time, look.frame_number, look.scale_bar, !look.title.is_empty()]
+        };
+        let added = items(&look).iter().zip(items(before)).any(|(now, then)| *now && !then);
+        look.in_pictures |= added && self.view.annotations.is_none();
+        self.view.annotations = Some(look);
     }
 
     /// The view with everything that the session decides: what is saved, and what a saved picture
