@@ -8,7 +8,7 @@ mod program;
 use std::fs;
 use std::path::Path;
 
-use program::{folder, sphcast};
+use program::{files_in, folder, sphcast};
 use sphcast::image_file::{self, Pixels};
 
 const SIZE: &str = "320x240";
@@ -18,7 +18,7 @@ fn picture(folder: &Path, view: &str, name: &str) -> Pixels {
     fs::write(folder.join("view.json"), view).unwrap();
     let arguments = ["render", "one.vtk", "--view", "view.json", "--size", SIZE, "--out", name];
     let outcome = sphcast(folder, &arguments);
-    assert_eq!(outcome.status, 0, "{}", outcome.err);
+    assert_eq!((outcome.status, &*outcome.out), (0, ""), "{}", outcome.err);
     image_file::read(&folder.join(name)).unwrap()
 }
 
@@ -61,4 +61,5 @@ fn errors_name_the_key() {
     fs::write(folder.path().join("view.json"), r#"{"annotations": {"sise": 1}}"#).unwrap();
     let outcome = sphcast(folder.path(), &["render", "one.vtk", "--view", "view.json", "--out", "a.png"]);
     assert!(outcome.error().contains("sise"), "{}", outcome.err);
+    assert!(!files_in(folder.path()).contains(&"a.png".to_owned()));
 }

@@ -38,6 +38,8 @@ fn texts_and_units_are_typed() {
     let mut harness = panel(fluid(), annotations::show);
     click(&mut harness, "Time");
     for (label, text) in [("Title", "Dam break"), ("Time unit", "s"), ("Bar title", "Density")] {
+        harness.get_by_label(label).focus();
+        harness.run();
         harness.get_by_label(label).type_text(text);
         harness.run();
     }
