@@ -210,6 +210,11 @@ impl OrbitCamera {
         self.distance
     }
 
+    /// Unit vectors of the picture's axes: right, up, and towards the viewer.
+    pub fn axes(&self) -> [DVec3; 3] {
+        [self.right(), self.up(), self.offset()]
+    }
+
     /// Where points of the world are on `screen`.
     pub fn projection(&self, screen: Screen) -> Projection {
         Projection {
@@ -295,10 +300,6 @@ mod tests {
         camera.target + camera.lateral(cursor, SCREEN) * camera.distance
     }
 
-    fn axes(camera: &OrbitCamera) -> [DVec3; 3] {
-        [camera.right(), camera.up(), camera.offset()]
-    }
-
     #[test]
     fn the_overview_is_that_of_a_view_without_camera() {
         let view = renderer::Camera::overview(bounds(), 0.1, 0.7);
@@ -373,7 +374,7 @@ mod tests {
                 let mut again = OrbitCamera { yaw: 0.3, ..camera };
                 again.adopt(&camera.to_view());
                 assert_eq!(again.axle, camera.axle, "{axle} {side:?}");
-                for (ours, theirs) in axes(&again).into_iter().zip(axes(&camera)) {
+                for (ours, theirs) in again.axes().into_iter().zip(camera.axes()) {
                     assert!(ours.distance(theirs) < 1e-6, "{axle} {side:?}");
                 }
             }
