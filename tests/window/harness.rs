@@ -76,6 +76,8 @@ impl Window {
     /// Opens it with other variables of the environment.
     pub fn open_with(folder: &Path, arguments: &[&str], variables: &[(&str, &Path)]) -> Window {
         let (server, display) = server();
+        // Settings and sessions of whoever runs the tests are none of theirs.
+        let home = folder.join("home");
         let mut program = Command::new(binary())
             .args(arguments)
             .arg("--log-events")
@@ -83,6 +85,8 @@ impl Window {
             .env("DISPLAY", &display)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
+            .env("XDG_CONFIG_HOME", home.join("config"))
+            .env("XDG_DATA_HOME", home.join("data"))
             .envs(variables.iter().copied())
             .stderr(Stdio::piped())
             .spawn()

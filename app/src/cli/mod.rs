@@ -152,13 +152,16 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> ExitCode {
 
 fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
     let sequence = Sequence::open(&arguments.files)?;
-    let view = arguments.view.resolve(&sequence)?;
+    let mut view = arguments.view.resolve(&sequence)?;
+    if arguments.files.is_empty() && arguments.view.shown.view.is_none() {
+        // The start page leaves less room than the demo's own camera needs.
+        view.camera = None;
+    }
     viewer::run(viewer::Options {
+        files: arguments.files.clone(),
         sequence,
         view,
         fixed_size: arguments.view.shown.size.is_some() || arguments.view.shown.view.is_some(),
-        // Who opens no run wants to see what this is.
-        playing: arguments.files.is_empty(),
         gpu: arguments.device.options(),
         log_events: arguments.log_events,
     })

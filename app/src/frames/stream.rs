@@ -123,6 +123,15 @@ impl FrameStream {
         self.shared.changed.notify_all();
     }
 
+    /// Holds no more than `budget` bytes beside the current frame from now on.
+    pub fn limit(&self, budget: usize) {
+        let mut state = self.shared.lock();
+        state.budget = budget;
+        state.evict(0);
+        drop(state);
+        self.shared.changed.notify_all();
+    }
+
     /// What is known of frame `index` now; never waits. Past the end nothing is ever loaded.
     pub fn get(&self, index: usize) -> FrameState {
         self.shared.lock().slots.get(index).map_or(FrameState::NotLoaded, |slot| match &slot.state {

@@ -113,6 +113,17 @@ fn a_bad_frame_is_marked_once_and_skipped() {
 }
 
 #[test]
+fn a_smaller_budget_drops_frames_at_once_and_a_larger_one_reads_on() {
+    let fakes = fakes(10, 100);
+    let stream = stream(&fakes, 12_000);
+    eventually("all frames", || loaded(&stream).len() == 10);
+    stream.limit(2_400);
+    assert_eq!(loaded(&stream).len(), 3, "the current one, and two beside it");
+    stream.limit(12_000);
+    eventually("all frames again", || loaded(&stream).len() == 10);
+}
+
+#[test]
 fn a_frame_larger_than_the_budget_is_shown_but_not_kept() {
     let mut fakes = fakes(5, 10);
     fakes[2] = Arc::new(Fake::new(10_000));

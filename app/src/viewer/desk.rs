@@ -1,6 +1,7 @@
 //! Session, threads, dialogs and panels at work together: one call a frame.
 
 mod files;
+mod keeping;
 mod looking;
 mod measuring;
 
@@ -18,8 +19,11 @@ use super::analysis::Analysis;
 use super::dialogs::{self, Dialogs, Purpose};
 use super::export::Export;
 use super::field_ranges::FieldRanges;
+use super::kept::LastSession;
 use super::measurement::Measurement;
 use super::panels::inspector::Inspector;
+use super::panels::palette::Palette;
+use super::panels::preferences::Preferences;
 use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
 use super::picture_view::PictureView;
@@ -30,13 +34,24 @@ use super::task::Outcome;
 use super::widgets::Areas;
 use super::{Options, Wake};
 
+use keeping::Keeping;
+
 /// What was done on another thread.
 enum Done {
-    Found(Result<Sequence, String>),
+    Found(Opening, Result<Sequence, String>),
     ViewRead(PathBuf, anyhow::Result<Box<View>>),
     ViewSaved(PathBuf, anyhow::Result<()>),
     Counted(Analysis),
     Ranged(FieldRanges),
+    Kept(anyhow::Result<()>),
+    Adapters(Vec<String>),
+}
+
+/// A run that is looked for.
+struct Opening {
+    paths: Vec<PathBuf>,
+    /// How it is to look; as its first frame does without any.
+    session: Option<Box<LastSession>>,
 }
 
 /// What only the window can do.
@@ -57,6 +72,11 @@ pub struct Desk {
     pub(super) inspector: Inspector,
     pub(super) help: bool,
     pub(super) side_panel: bool,
+    /// Whether the start page is shown.
+    pub(super) start: bool,
+    pub(super) palette: Option<Palette>,
+    pub(super) preferences: Option<Preferences>,
+    pub(super) keeping: Keeping,
     pub(super) render: RenderThread,
     pub orders: Vec<Order>,
     /// When to draw the next frame although nothing happens.
@@ -66,6 +86,8 @@ pub struct Desk {
     counting: bool,
     finding: bool,
     looking: looking::Looking,
+    /// Which device the command line asks for, and which one is asked for in the end.
+    given_gpu: GpuOptions,
     gpu: GpuOptions,
     wake: Wake,
     /// Whether a script follows what happens.
@@ -77,6 +99,9 @@ impl Desk {
     pub fn new(options: Options, wake: Wake) -> Desk {
         let mut session = Session::new(options.view);
         session.fits_window = !options.fixed_size;
+        let (keeping, troubles) = Keeping::read();
+        let gpu = keeping.settings.gpu(&options.gpu);
+        let crashed = keeping.last.as_ref().is_some_and(|last| !last.ended);
         let mut desk = Desk {
             session,
             picture: PictureView::new(),
@@ -87,7 +112,11 @@ impl Desk {
             inspector: Inspector::default(),
             help: false,
             side_panel: true,
-            render: RenderThread::spawn(options.gpu.clone(), Wake::clone(&wake)),
+            start: false,
+            palette: None,
+            preferences: None,
+            keeping,
+            render: RenderThread::spawn(gpu.clone(), Wake::clone(&wake)),
             orders: Vec::new(),
             due: None,
             dialogs: Dialogs::new(Wake::clone(&wake)),
@@ -95,14 +124,18 @@ impl Desk {
             counting: false,
             finding: false,
             looking: looking::Looking::default(),
-            gpu: options.gpu,
+            given_gpu: options.gpu,
+            gpu,
             wake,
             log_events: options.log_events,
             areas: Areas::default(),
         };
-        desk.open(&options.sequence);
-        if options.playing {
+        troubles.into_iter().for_each(|trouble| desk.session.complain(trouble));
+        desk.open(&options.sequence, &options.files);
+        if options.files.is_empty() {
+            // Who names no run wants to see what this is, or to go on.
             desk.session.toggle_playing();
+            desk.start = desk.keeping.settings.start_page || crashed;
         }
         desk
     }
@@ -115,7 +148,10 @@ impl Desk {
         self.take_outcomes();
         self.take_drops(ui.ctx());
         let before = self.session.view.clone();
-        let mut actions = super::shortcuts::pressed(ui.ctx());
+        self.keeping.settings.keymap().install(ui.ctx());
+        // These take keys for themselves.
+        let takes_keys = self.palette.is_some() || self.preferences.is_some();
+        let mut actions = if takes_keys { Vec::new() } else { super::shortcuts::pressed(ui.ctx()) };
         let room = super::layout::show(ui, self, &mut actions);
         for action in actions {
             self.act(action, window);
@@ -136,6 +172,7 @@ impl Desk {
         self.look_closer();
         // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
         self.due = self.session.due(now);
+        self.keep(now);
         self.tell(ui.ctx());
     }
 
@@ -199,6 +236,9 @@ impl Desk {
                 session.log(if self.picture.inspecting { "inspect on" } else { "inspect off" });
             }
             Action::CellClasses => session.overlay.toggle_classes(),
+            Action::Palette => self.palette = Some(Palette::default()),
+            Action::Settings => self.open_preferences(),
+            Action::Start => self.start = !self.start,
             Action::Panels => self.side_panel = !self.side_panel,
             Action::FullScreen => self.orders.push(Order::FullScreen),
             Action::Help => self.help = !self.help,
@@ -218,11 +258,15 @@ impl Desk {
     fn take_done(&mut self) {
         while let Ok(done) = self.done.1.try_recv() {
             match done {
-                Done::Found(Ok(sequence)) => {
+                Done::Found(opening, Ok(sequence)) => {
                     self.finding = false;
-                    self.open(&sequence);
+                    self.open(&sequence, &opening.paths);
+                    if let Some(last) = opening.session {
+                        self.session.adopt(last.view);
+                        self.session.jump(last.frame);
+                    }
                 }
-                Done::Found(Err(text)) => {
+                Done::Found(_, Err(text)) => {
                     self.finding = false;
                     self.session.complain(text);
                 }
@@ -243,6 +287,12 @@ impl Desk {
                     self.session.answer(analysis);
                 }
                 Done::Ranged(ranges) => self.take_field_ranges(ranges),
+                Done::Kept(result) => self.written(result),
+                Done::Adapters(names) => {
+                    if let Some(preferences) = &mut self.preferences {
+                        preferences.adapters = Some(names);
+                    }
+                }
             }
         }
     }
@@ -284,6 +334,11 @@ impl Desk {
         }
     }
 
+    fn open_preferences(&mut self) {
+        self.preferences = Some(Preferences::default());
+        self.work(|| Done::Adapters(renderer::Gpu::adapters()));
+    }
+
     fn work(&self, task: impl FnOnce() -> Done + Send + 'static) {
         let (sender, wake) = (self.done.0.clone(), Wake::clone(&self.wake));
         std::thread::spawn(move || {
@@ -295,7 +350,8 @@ impl Desk {
 
     /// Closes the inspector, and then ends the tool.
     fn escape(&mut self, context: &egui::Context) {
-        let elsewhere = self.help || egui::Popup::is_any_open(context) || context.egui_wants_keyboard_input();
+        let covered = self.help || self.palette.is_some() || self.preferences.is_some();
+        let elsewhere = covered || egui::Popup::is_any_open(context) || context.egui_wants_keyboard_input();
         if elsewhere || !context.input(|input| input.key_pressed(egui::Key::Escape)) {
             return;
         }

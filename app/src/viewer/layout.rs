@@ -4,10 +4,12 @@ use egui::{Align2, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, St
 
 use super::desk::Desk;
 use super::measurement::{Measurement, State};
+use super::panels::palette::Palette;
+use super::panels::preferences::Preferences;
 use super::panels::toolbar::Modes;
 use super::panels::{
     annotations, camera, cells, help, image, measured_error, messages, overlay_legend, particles,
-    performance, quantity, saved, selection, timeline, toolbar,
+    performance, quantity, saved, selection, start, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
@@ -31,6 +33,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
             timeline::show(ui, &mut desk.session, actions);
         });
     }
+    if desk.start {
+        let side = Frame::new().fill(theme::PANEL);
+        Panel::left("start").exact_size(start::WIDTH).resizable(false).frame(side).show(ui, |ui| {
+            start::show(ui, desk, actions);
+        });
+    }
     if desk.side_panel {
         let side = Frame::new().fill(theme::PANEL);
         Panel::right("side").exact_size(theme::SIDE_WIDTH).resizable(false).frame(side).show(ui, |ui| {
@@ -51,6 +59,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
     over_picture(ui, desk, rect, outer);
     desk.inspector.show(ui, &mut desk.session, rect);
     help::show(ui, &mut desk.help);
+    Palette::show(&mut desk.palette, ui, actions);
+    Preferences::show(ui, desk);
     drop_target(ui);
     room
 }

@@ -3,6 +3,7 @@
 //! - [`session`] is the state, without window or egui: run, playhead, view, camera, messages.
 //! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`export`] does
 //!   so for saved ones, and [`measurement`] to find out how far a picture is from full sampling.
+//! - [`kept`] is what outlives the program: settings, recent runs, the session.
 //! - [`desk`] ties the two together with dialogs and [`panels`]; [`window`] is winit and egui.
 
 mod analysis;
@@ -15,6 +16,8 @@ mod export;
 mod field_ranges;
 mod handles;
 mod icons;
+mod kept;
+mod keymap;
 mod layers;
 mod layout;
 mod measurement;
@@ -39,6 +42,7 @@ mod tone;
 mod widgets;
 mod window;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use renderer::{GpuOptions, View};
@@ -47,13 +51,13 @@ use crate::frames::Sequence;
 
 /// What the viewer is opened with.
 pub struct Options {
+    /// What it is opened by: nothing for the embedded run, with a start page beside it.
+    pub files: Vec<PathBuf>,
     pub sequence: Sequence,
     /// Settings to start from.
     pub view: View,
     /// Whether the size of the image was asked for; otherwise it is that of the window.
     pub fixed_size: bool,
-    /// Whether the run starts to play at once.
-    pub playing: bool,
     pub gpu: GpuOptions,
     /// Whether to write one line on standard error for each thing that happens. With it, F12 takes
     /// the window's graphics device away, for tests of what follows from that.

@@ -36,7 +36,8 @@ const DISTANCE_LIMITS: [f64; 2] = [1e-3, 1e2];
 const OVERVIEW: [f64; 3] = [0.55, 0.40, 0.75];
 
 /// The side from which an axis view looks at the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Side {
     PosX,
     NegX,

@@ -6,9 +6,6 @@ use crate::frames::{FrameStream, Sequence};
 
 use super::Wake;
 
-/// Bytes of frames that are kept beside the current one.
-const CACHE_BYTES: usize = 2 << 30;
-
 pub struct Run {
     /// For the window's title: the file, or what the files have in common.
     pub title: String,
@@ -18,7 +15,8 @@ pub struct Run {
 }
 
 impl Run {
-    pub fn new(sequence: &Sequence, wake: &Wake) -> Run {
+    /// Keeps up to `cache` bytes of frames beside the one in view.
+    pub fn new(sequence: &Sequence, cache: usize, wake: &Wake) -> Run {
         let names: Vec<String> = sequence.sources().iter().map(|source| file_name(&source.name)).collect();
         let title = match sequence.sources() {
             _ if sequence.is_demo() => "demo".to_owned(),
@@ -26,7 +24,7 @@ impl Run {
             several => several.first().map_or_else(String::new, |first| folder_name(&first.name)),
         };
         let wake = Wake::clone(wake);
-        let stream = FrameStream::new(sequence.frame_sources(), CACHE_BYTES, move || wake());
+        let stream = FrameStream::new(sequence.frame_sources(), cache, move || wake());
         Run { title, names, stream }
     }
 

@@ -200,6 +200,13 @@ impl Session {
         moved
     }
 
+    /// Keeps no more than `bytes` of frames beside the one in view.
+    pub fn limit_frames(&self, bytes: usize) {
+        if let Some(run) = &self.run {
+            run.stream.limit(bytes);
+        }
+    }
+
     pub fn toggle_playing(&mut self) {
         self.playback.toggle();
         self.log(if self.playback.playing() { "playing" } else { "paused" });

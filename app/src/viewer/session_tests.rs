@@ -20,7 +20,7 @@ fn open(frames: &[&str]) -> Session {
 fn run(frames: &[&str]) -> Run {
     let paths: Vec<PathBuf> = frames.iter().map(PathBuf::from).collect();
     let wake: Wake = Arc::new(|| {});
-    Run::new(&Sequence::open(&paths).unwrap(), &wake)
+    Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake)
 }
 
 /// Polls until the frame at the playhead is there, or nothing can be done about it.

@@ -1,11 +1,15 @@
-//! What the program can be told to do, and by which keys: one table for the keyboard and for the help.
+//! What the program can be told to do, and by which keys: one table for the keyboard, the command
+//! palette, the settings and the help.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
+use serde::{Deserialize, Serialize};
 
+use super::keymap::Keymap;
 use super::orbit_camera::Side;
 
 /// A command to the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Action {
     OpenFiles,
     OpenFolder,
@@ -29,17 +33,22 @@ pub enum Action {
     Fly,
     Inspect,
     CellClasses,
+    Palette,
+    Settings,
+    Start,
     Panels,
     FullScreen,
     Help,
     Quit,
 }
 
-/// A line of the help, and the keys that call its action.
+/// A command, what it is called in menus and help, and the keys that call it unless the user has others.
 pub struct Shortcut {
     pub group: &'static str,
-    pub keys: KeyboardShortcut,
+    /// `None` where no key calls it.
+    pub keys: Option<KeyboardShortcut>,
     pub action: Action,
+    /// Empty for further keys of an action that stands above.
     pub meaning: &'static str,
 }
 
@@ -54,13 +63,19 @@ const fn key(
     action: Action,
     meaning: &'static str,
 ) -> Shortcut {
-    Shortcut { group, keys: KeyboardShortcut::new(modifiers, key), action, meaning }
+    Shortcut { group, keys: Some(KeyboardShortcut::new(modifiers, key)), action, meaning }
 }
 
-/// Every shortcut. Those with more modifiers come first: a key with Ctrl is also that key.
+/// A command without keys.
+const fn command(group: &'static str, action: Action, meaning: &'static str) -> Shortcut {
+    Shortcut { group, keys: None, action, meaning }
+}
+
+/// Every command, with the keys that the program comes with.
 pub const SHORTCUTS: &[Shortcut] = &[
     key("Files", CTRL, Key::O, Action::OpenFiles, "Open files"),
     key("Files", CTRL_SHIFT, Key::O, Action::OpenFolder, "Open a folder as a sequence"),
+    command("Files", Action::OpenDemo, "Open the demo run"),
     key("Files", CTRL, Key::L, Action::LoadView, "Load a view"),
     key("Files", CTRL, Key::S, Action::SaveView, "Save the view"),
     key("Files", CTRL, Key::E, Action::SavePicture, "Save the picture"),
@@ -75,18 +90,22 @@ pub const SHORTCUTS: &[Shortcut] = &[
     key("Time", CTRL, Key::ArrowLeft, Action::First, "First frame"),
     key("Time", CTRL, Key::ArrowRight, Action::Last, "Last frame"),
     key("Camera", NONE, Key::Home, Action::Reset, "Whole scene in view"),
-    key("Camera", NONE, Key::Num1, Action::Look(Side::PosX), "Look from +X, −X, +Y, −Y, +Z, −Z"),
-    key("Camera", NONE, Key::Num2, Action::Look(Side::NegX), ""),
-    key("Camera", NONE, Key::Num3, Action::Look(Side::PosY), ""),
-    key("Camera", NONE, Key::Num4, Action::Look(Side::NegY), ""),
-    key("Camera", NONE, Key::Num5, Action::Look(Side::PosZ), ""),
-    key("Camera", NONE, Key::Num6, Action::Look(Side::NegZ), ""),
+    key("Camera", NONE, Key::Num1, Action::Look(Side::PosX), "Look from +X"),
+    key("Camera", NONE, Key::Num2, Action::Look(Side::NegX), "Look from −X"),
+    key("Camera", NONE, Key::Num3, Action::Look(Side::PosY), "Look from +Y"),
+    key("Camera", NONE, Key::Num4, Action::Look(Side::NegY), "Look from −Y"),
+    key("Camera", NONE, Key::Num5, Action::Look(Side::PosZ), "Look from +Z"),
+    key("Camera", NONE, Key::Num6, Action::Look(Side::NegZ), "Look from −Z"),
     key("Camera", NONE, Key::Plus, Action::ZoomIn, "Zoom in"),
     key("Camera", NONE, Key::Equals, Action::ZoomIn, ""),
     key("Camera", NONE, Key::Minus, Action::ZoomOut, "Zoom out"),
     key("Camera", NONE, Key::F, Action::Fly, "Fly mode on or off"),
     key("Picture", NONE, Key::C, Action::CellClasses, "Classes of the cells on or off"),
     key("Picture", NONE, Key::I, Action::Inspect, "Inspect: a click looks into a pixel"),
+    command("Picture", Action::MeasureError, "Measure the error against full sampling"),
+    key("Window", CTRL, Key::K, Action::Palette, "Command palette"),
+    key("Window", CTRL, Key::Comma, Action::Settings, "Settings"),
+    key("Window", CTRL, Key::H, Action::Start, "Start page: recent runs"),
     key("Window", NONE, Key::P, Action::Panels, "Side panel on or off"),
     key("Window", NONE, Key::F11, Action::FullScreen, "Full screen on or off"),
     key("Window", NONE, Key::H, Action::Help, "This help"),
@@ -113,32 +132,33 @@ pub fn pressed(context: &egui::Context) -> Vec<Action> {
     if context.egui_wants_keyboard_input() {
         return Vec::new();
     }
-    let mut order: Vec<&Shortcut> = SHORTCUTS.iter().collect();
-    order.sort_by_key(|shortcut| {
-        let modifiers = shortcut.keys.modifiers;
-        std::cmp::Reverse(u8::from(modifiers.command) + u8::from(modifiers.shift))
-    });
+    let bindings = Keymap::of(context).bindings();
     context.input_mut(|input| {
-        order
+        bindings
             .into_iter()
-            .flat_map(|Shortcut { keys, action, .. }| {
+            .flat_map(|(keys, action)| {
                 let times = input.count_and_consume_key(keys.modifiers, keys.logical_key);
-                std::iter::repeat_n(*action, times)
+                std::iter::repeat_n(action, times)
             })
             .collect()
     })
 }
 
+/// What an action is called.
+pub fn meaning(action: Action) -> &'static str {
+    SHORTCUTS.iter().find(|shortcut| shortcut.action == action).map_or("", |shortcut| shortcut.meaning)
+}
+
 /// What a tooltip says of an action: its meaning and its keys.
 pub fn hint(context: &egui::Context, action: Action) -> String {
-    let found = SHORTCUTS.iter().find(|shortcut| shortcut.action == action);
-    found.map_or_else(String::new, |shortcut| {
-        format!("{}  ({})", shortcut.meaning, context.format_shortcut(&shortcut.keys))
-    })
+    match keys(context, action) {
+        keys if keys.is_empty() => meaning(action).to_owned(),
+        keys => format!("{}  ({keys})", meaning(action)),
+    }
 }
 
 /// The keys that call an action, in words; empty where there are none.
 pub fn keys(context: &egui::Context, action: Action) -> String {
-    let found = SHORTCUTS.iter().find(|shortcut| shortcut.action == action);
-    found.map_or_else(String::new, |shortcut| context.format_shortcut(&shortcut.keys))
+    let keys = Keymap::of(context).keys(action);
+    keys.first().map_or_else(String::new, |keys| context.format_shortcut(keys))
 }

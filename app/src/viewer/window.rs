@@ -128,6 +128,7 @@ impl ApplicationHandler<Event> for App {
         if let State::Open(open) = &self.state {
             // Ending a picture in work takes a moment that nobody needs to watch.
             open.window.set_visible(false);
+            open.desk.close();
         }
     }
 }

@@ -20,6 +20,8 @@ use crate::error::{GpuError, RenderError};
 pub struct GpuOptions {
     /// Part of the adapter's name, in any case; the fastest one where it is `None`.
     pub adapter: Option<String>,
+    /// The same, except that another adapter is as good where there is none of that name.
+    pub preferred: Option<String>,
     /// Bytes of device memory that one tile of a picture may take; 4 GiB on a graphics card and 1 GiB
     /// elsewhere where it is `None`. Pictures that need more are rendered in tiles.
     pub memory: Option<u64>,
@@ -59,7 +61,13 @@ impl Gpu {
     }
 
     async fn open(options: &GpuOptions) -> Result<Gpu, GpuError> {
-        let adapter = find_adapter(options.adapter.as_deref()).await?;
+        let adapter = match (&options.adapter, &options.preferred) {
+            (None, Some(preferred)) => match find_adapter(Some(preferred)).await {
+                Err(GpuError::NoSuchAdapter { .. }) => find_adapter(None).await?,
+                found => found?,
+            },
+            (wanted, _) => find_adapter(wanted.as_deref()).await?,
+        };
         let info = adapter.get_info();
         let limits = adapter.limits();
         let timestamps = adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
@@ -85,6 +93,16 @@ impl Gpu {
         });
         let edits = ShaderEdits::new(&options.shader_edits);
         Ok(Gpu { device, queue, info, limits, timestamps, memory, edits, failures })
+    }
+
+    /// The names of all adapters that could render, each once. Asks every driver, which takes a while.
+    pub fn adapters() -> Vec<String> {
+        let instance = instance(wgpu::Backends::PRIMARY);
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+        let mut names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+        let mut known = std::collections::HashSet::new();
+        names.retain(|name| known.insert(name.clone()));
+        names
     }
 
     /// The adapter's name, as its driver gives it.
@@ -154,10 +172,7 @@ async fn find_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
 }
 
 async fn find_adapter_of(backends: wgpu::Backends, wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
-    let instance = wgpu::Instance::new(
-        wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() }
-            .with_env(),
-    );
+    let instance = instance(backends);
     let Some(wanted) = wanted else {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -173,6 +188,12 @@ async fn find_adapter_of(backends: wgpu::Backends, wanted: Option<&str>) -> Resu
         None if names.is_empty() => Err(GpuError::NoAdapter),
         None => Err(GpuError::NoSuchAdapter { wanted: wanted.to_owned(), found: names.join(", ") }),
     }
+}
+
+fn instance(backends: wgpu::Backends) -> wgpu::Instance {
+    let descriptor =
+        wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
+    wgpu::Instance::new(descriptor.with_env())
 }
 
 /// Turns the device's callbacks, which would panic by default, into failures to be checked.

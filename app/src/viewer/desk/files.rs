@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Desk, Done};
+use super::{Desk, Done, Opening};
 use crate::frames::Sequence;
 use crate::viewer::Wake;
 use crate::viewer::dialogs::Purpose;
 use crate::viewer::export::Export;
+use crate::viewer::kept::LastSession;
 use crate::viewer::run::{self, Run};
 use crate::{image_file, view_file};
 
@@ -34,17 +35,27 @@ impl Desk {
     }
 
     /// Looks for frames and opens them as a run.
-    pub(super) fn find(&mut self, paths: Vec<PathBuf>) {
-        self.finding = true;
-        self.work(move || Done::Found(run::find(&paths)));
+    pub(in crate::viewer) fn find(&mut self, paths: Vec<PathBuf>) {
+        self.find_for(paths, None);
     }
 
-    pub(super) fn open(&mut self, sequence: &Sequence) {
+    /// The same, for a run that is to look as it did in `session`.
+    pub(super) fn find_for(&mut self, paths: Vec<PathBuf>, session: Option<Box<LastSession>>) {
+        self.finding = true;
+        self.work(move || {
+            let found = run::find(&paths);
+            Done::Found(Opening { paths, session }, found)
+        });
+    }
+
+    /// Shows the run that `paths` name.
+    pub(super) fn open(&mut self, sequence: &Sequence, paths: &[PathBuf]) {
         for note in sequence.notes() {
             self.session.messages.note(note.clone());
         }
-        self.session.open(Run::new(sequence, &self.wake));
+        self.session.open(Run::new(sequence, self.keeping.settings.frame_cache(), &self.wake));
         self.picture.clear();
+        self.opened(paths);
     }
 
     pub(super) fn load_view(&mut self, path: PathBuf) {

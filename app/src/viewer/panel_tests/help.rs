@@ -16,9 +16,8 @@ fn opened() -> Harness<'static, bool> {
         },
         true,
     );
-    harness.run();
-    // Only now is it known how large the list is, and where it belongs.
-    harness.run();
+    // It takes some frames until it is known how large the list is, and where it belongs.
+    harness.run_steps(8);
     harness
 }
 

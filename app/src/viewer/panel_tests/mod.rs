@@ -8,7 +8,9 @@ mod inspector;
 mod measured_error;
 mod messages;
 mod overlay_legend;
+mod palette;
 mod particles;
+mod preferences;
 mod quantity;
 mod sampling;
 mod saved;
@@ -53,7 +55,7 @@ fn session_over(frames: &[&str]) -> Session {
     let wake: Wake = Arc::new(|| {});
     let mut session = Session::new(View::default());
     let paths: Vec<PathBuf> = frames.iter().map(PathBuf::from).collect();
-    session.open(Run::new(&Sequence::open(&paths).unwrap(), &wake));
+    session.open(Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake));
     let limit = Instant::now() + Duration::from_secs(20);
     while session.frame().is_none() {
         assert!(Instant::now() < limit, "the frame did not come");

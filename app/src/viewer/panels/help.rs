@@ -2,7 +2,7 @@
 
 use egui::{Align2, RichText, Ui, vec2};
 
-use crate::viewer::shortcuts::{Action, GESTURES, SHORTCUTS, Shortcut};
+use crate::viewer::shortcuts::{GESTURES, SHORTCUTS, Shortcut, keys};
 use crate::viewer::theme;
 
 /// Column of the keys, in points.
@@ -18,16 +18,19 @@ pub fn show(ui: &Ui, open: &mut bool) {
         ui.label(RichText::new("Keyboard and mouse").heading().strong());
         ui.add_space(8.0);
         let height = ui.ctx().content_rect().height() - 190.0;
-        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
-            ui.columns_const(|[left, right]| {
-                mouse(left);
-                group(left, "Files");
-                group(right, "Time");
-                group(right, "Camera");
-                group(right, "Picture");
-                group(right, "Window");
-            });
-        });
+        egui::ScrollArea::vertical().min_scrolled_height(height).max_height(height).auto_shrink(false).show(
+            ui,
+            |ui| {
+                ui.columns_const(|[left, right]| {
+                    mouse(left);
+                    group(left, "Files");
+                    group(left, "Window");
+                    group(right, "Time");
+                    group(right, "Camera");
+                    group(right, "Picture");
+                });
+            },
+        );
         ui.add_space(8.0);
         ui.vertical_centered(|ui| ui.button("Close").clicked()).inner
     });
@@ -50,12 +53,7 @@ fn group(ui: &mut Ui, name: &str) {
     title(ui, name);
     let here = |shortcut: &&Shortcut| shortcut.group == name && !shortcut.meaning.is_empty();
     for shortcut in SHORTCUTS.iter().filter(here) {
-        let keys = match shortcut.action {
-            // Six keys, one line.
-            Action::Look(_) => "1 to 6".to_owned(),
-            _ => ui.ctx().format_shortcut(&shortcut.keys),
-        };
-        line(ui, &keys, shortcut.meaning);
+        line(ui, &keys(ui.ctx(), shortcut.action), shortcut.meaning);
     }
     ui.add_space(10.0);
 }

@@ -27,6 +27,7 @@ pub fn show(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Acti
         ui.add_enabled_ui(ready, |ui| camera(ui, modes, actions));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             call(ui, ui_button("Help", false), Action::Help, actions);
+            call(ui, ui_button("Settings", false), Action::Settings, actions);
             call(ui, ui_button("Panels", modes.panels), Action::Panels, actions);
         });
     });
@@ -37,6 +38,8 @@ fn files(ui: &mut Ui, actions: &mut Vec<Action>) {
         item(ui, "Files…", Action::OpenFiles, actions);
         item(ui, "Folder…", Action::OpenFolder, actions);
         item(ui, "Demo run", Action::OpenDemo, actions);
+        ui.separator();
+        item(ui, "Start page", Action::Start, actions);
     });
     ui.menu_button("View", |ui| {
         item(ui, "Load view…", Action::LoadView, actions);

@@ -1,0 +1,179 @@
+//! What outlives the program: read when it starts, written soon after it changes and when it ends.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::{Desk, Done};
+use crate::viewer::Wake;
+use crate::viewer::kept::{self, Kept, LastSession, Recent, RecentRuns, Settings};
+use crate::viewer::render_thread::RenderThread;
+
+/// The least time between two writes of the session.
+const PAUSE: Duration = Duration::from_secs(2);
+
+pub struct Keeping {
+    pub settings: Settings,
+    pub recent: RecentRuns,
+    /// What was open before the program was started.
+    pub last: Option<LastSession>,
+    /// What the open run was opened by; empty for the demo, which needs no keeping.
+    paths: Vec<PathBuf>,
+    /// What the files hold.
+    written: (Settings, Option<LastSession>),
+    /// Whether something is being written.
+    writing: bool,
+    /// When the session may be written next.
+    next: Instant,
+}
+
+impl Keeping {
+    /// Reads what was kept. Also returns what is wrong with it.
+    pub fn read() -> (Keeping, Vec<String>) {
+        let mut troubles = Vec::new();
+        let settings = kept_or_default::<Settings>(&mut troubles);
+        let recent = kept_or_default(&mut troubles);
+        let last = LastSession::read().unwrap_or_else(|error| {
+            troubles.push(format!("{error:#}"));
+            None
+        });
+        let written = (settings.clone(), None);
+        let paths = Vec::new();
+        let keeping =
+            Keeping { settings, recent, last, paths, written, writing: false, next: Instant::now() };
+        (keeping, troubles)
+    }
+}
+
+fn kept_or_default<T: Kept + Default>(troubles: &mut Vec<String>) -> T {
+    match T::read() {
+        Ok(kept) => kept.unwrap_or_default(),
+        Err(error) => {
+            troubles.push(format!("{error:#}"));
+            T::default()
+        }
+    }
+}
+
+impl Desk {
+    /// Takes note of a run that was opened.
+    pub(super) fn opened(&mut self, paths: &[PathBuf]) {
+        let is_demo = paths.is_empty() || paths == [Path::new("demo")];
+        self.keeping.paths =
+            if is_demo { Vec::new() } else { paths.iter().map(|path| lasting(path)).collect() };
+        self.start = false;
+        if is_demo {
+            return;
+        }
+        let title = self.session.run().map_or_else(String::new, |run| run.title.clone());
+        let frames = self.session.playback.count();
+        self.keeping.recent.add(Recent {
+            paths: self.keeping.paths.clone(),
+            title,
+            frames,
+            when: kept::now(),
+        });
+        self.write(self.keeping.recent.clone());
+    }
+
+    /// Removes a run from the list of those that were open.
+    pub(in crate::viewer) fn forget(&mut self, paths: &[PathBuf]) {
+        self.keeping.recent.remove(paths);
+        self.write(self.keeping.recent.clone());
+    }
+
+    /// Opens again what was open when the program ended.
+    pub(in crate::viewer) fn restore(&mut self) {
+        if let Some(last) = self.keeping.last.take() {
+            self.find_for(last.paths.clone(), Some(Box::new(last)));
+        }
+    }
+
+    /// Writes what has changed since it was last written; the session, no more often than it must be.
+    pub(super) fn keep(&mut self, now: Instant) {
+        if self.keeping.settings != self.keeping.written.0 {
+            self.keeping.written.0 = self.keeping.settings.clone();
+            self.write(self.keeping.settings.clone());
+        }
+        let Some(session) = self.to_be_kept(false) else { return };
+        let written = self.keeping.written.1.as_ref();
+        if written.is_some_and(|written| written.is_like(&session)) {
+            return;
+        }
+        if self.keeping.writing || now < self.keeping.next {
+            self.due = [self.due, Some(self.keeping.next)].into_iter().flatten().min();
+            return;
+        }
+        self.keeping.next = now + PAUSE;
+        self.keeping.written.1 = Some(session.clone());
+        self.session.log("kept session");
+        self.write(session);
+    }
+
+    /// Writes the session for the last time. Nobody is left to tell where this fails.
+    pub fn close(&self) {
+        if let Some(session) = self.to_be_kept(true) {
+            let _ = session.write();
+        }
+    }
+
+    fn to_be_kept(&self, ended: bool) -> Option<LastSession> {
+        if self.keeping.paths.is_empty() {
+            return None;
+        }
+        Some(LastSession {
+            paths: self.keeping.paths.clone(),
+            title: self.session.run()?.title.clone(),
+            frame: self.session.playback.index(),
+            view: self.session.complete_view(),
+            when: kept::now(),
+            ended,
+        })
+    }
+
+    fn write(&mut self, kept: impl Kept + Send + 'static) {
+        self.keeping.writing = true;
+        self.work(move || Done::Kept(kept.write()));
+    }
+
+    pub(super) fn written(&mut self, result: anyhow::Result<()>) {
+        self.keeping.writing = false;
+        if let Err(error) = result {
+            self.session.messages.warn(format!("{error:#}"));
+        }
+    }
+
+    /// Goes on with the device and the memory that the settings ask for.
+    pub(in crate::viewer) fn apply_settings(&mut self) {
+        self.session.limit_frames(self.keeping.settings.frame_cache());
+        let gpu = self.keeping.settings.gpu(&self.given_gpu);
+        if (&gpu.preferred, gpu.memory) != (&self.gpu.preferred, self.gpu.memory) {
+            self.gpu = gpu.clone();
+            let before =
+                std::mem::replace(&mut self.render, RenderThread::spawn(gpu, Wake::clone(&self.wake)));
+            // Ending it waits for the picture in work.
+            std::thread::spawn(move || drop(before));
+            self.session.adapter = None;
+            self.session.ask_again();
+        }
+    }
+}
+
+/// A path that means the same wherever the program is started next.
+fn lasting(path: &Path) -> PathBuf {
+    let is_generated = path.to_str().is_some_and(|name| name.starts_with("demo:"));
+    match std::path::absolute(path) {
+        Ok(absolute) if !is_generated => absolute,
+        _ => path.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn generated_runs_are_no_files() {
+        assert_eq!(lasting(Path::new("demo:radial:8")), Path::new("demo:radial:8"));
+        assert!(lasting(Path::new("run/*.vtk")).is_absolute());
+    }
+}
