@@ -9,7 +9,7 @@ use reference::guarantee::{calm, prepare_anyway};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey};
-use renderer::{GpuOptions, Kernel, Picture, RenderError, Renderer, TooLarge, TransferFunction};
+use renderer::{Band, GpuOptions, Kernel, Picture, RenderError, Renderer, TooLarge, TransferFunction};
 
 /// Bytes that a tile may take: from a few tiles to a single bundle a tile.
 const MEMORY: [u64; 3] = [1 << 20, 256 << 10, 192 << 10];
@@ -88,6 +88,52 @@ fn little_memory_adapts_as_much_does() {
         assert_eq!(tiled_bundle.charged, bundle.charged);
         assert_eq!(tiled_bundle.cells.len(), bundle.cells.len());
     }
+}
+
+/// Whole bands and a last one that is lower, with as much memory as tiles and bands like, and with little.
+#[test]
+fn bands_are_rows_of_the_picture() {
+    let go_on = |_: f32| ControlFlow::Continue(());
+    let mut scene = prepare_anyway(&calm(62, 97, 75));
+    scene.sampling.tolerance = Some(0.003);
+    let (whole, map) = open(&GpuOptions::default()).render_with_cells(&scene, &mut { go_on }).unwrap();
+    for mut renderer in [open(&GpuOptions::default()), little(8 << 20)] {
+        let mut rows = Vec::new();
+        let mut take = |band: Band| {
+            assert_eq!(band.first_row as usize * 97, rows.len());
+            let charged = band.charged.expect("they are asked for");
+            rows.extend(band.pixels.into_iter().zip(charged));
+            ControlFlow::Continue(())
+        };
+        let stats = renderer.render_bands(&scene, 30, true, &mut { go_on }, &mut take).unwrap();
+        assert_eq!(rows.len(), 97 * 75);
+        for (place, (pixel, charge)) in rows.iter().enumerate() {
+            let at = [place as u32 % 97, place as u32 / 97];
+            let far = (0..4).map(|c| (pixel[c] - whole.pixels[place][c]).abs()).fold(0.0, f32::max);
+            assert!(far <= 1e-4, "pixel {at:?} is {far} from that of the whole picture");
+            assert_eq!(*charge, map.charged(at), "pixel {at:?}");
+        }
+        assert!(rows.iter().any(|(_, charge)| *charge > 0.0));
+        assert_eq!(stats.bundles, whole.stats.bundles);
+        let sampled = |stats: &renderer::Stats| stats.evaluations.done - stats.evaluations.bounds;
+        assert_eq!(sampled(&stats), sampled(&whole.stats));
+        // The next picture is not misled by what is left of the bands.
+        assert_eq!(render(&mut renderer, &scene).pixels.len(), rows.len());
+    }
+}
+
+#[test]
+fn who_takes_the_bands_may_end_them() {
+    let scene = prepare(&scenes::plain(133, 40, 40));
+    let mut renderer = open(&GpuOptions::default());
+    let mut taken = 0;
+    let mut take = |_: Band| {
+        taken += 1;
+        ControlFlow::Break(())
+    };
+    let result = renderer.render_bands(&scene, 8, false, &mut |_| ControlFlow::Continue(()), &mut take);
+    assert!(matches!(result, Err(RenderError::Cancelled)), "{result:?}");
+    assert_eq!(taken, 1);
 }
 
 #[test]

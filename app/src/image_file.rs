@@ -68,6 +68,14 @@ pub struct Rows<'a> {
     pub channels: Vec<&'a [f32]>,
 }
 
+impl<'a> Rows<'a> {
+    /// The pixels in a range, with their channels.
+    fn part(&self, range: std::ops::Range<usize>) -> Rows<'a> {
+        let channels = self.channels.iter().map(|channel| &channel[range.clone()]).collect();
+        Rows { pixels: &self.pixels[range], channels }
+    }
+}
+
 /// Rows that come together.
 pub const ROWS: u32 = 16;
 
@@ -120,6 +128,11 @@ pub fn write_rows<T>(
     }
 }
 
+/// The path of a file, and why it cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Unwritten(String);
+
 /// The error by which a producer learns that the file takes no more rows.
 #[derive(Debug, thiserror::Error)]
 #[error("the file takes no more rows")]
@@ -169,7 +182,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 /// Gives `path` what `write` puts into a file, whole or not at all.
 ///
 /// # Errors
-/// The path, and what is wrong with writing there.
+/// [`Unwritten`].
 pub fn write_file(path: &Path, write: impl FnOnce(&mut File) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let folder = match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -188,7 +201,7 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut File) -> anyhow::Result<(
     };
     write().map_err(|error| {
         let what = error.downcast_ref().map_or_else(|| error.to_string(), describe);
-        anyhow!("{}: cannot be written: {what}", path.display())
+        Unwritten(format!("{}: cannot be written: {what}", path.display())).into()
     })
 }
 
@@ -258,6 +271,67 @@ mod tests {
         assert_eq!(to_srgb8([0.0; 4], None), [0; 4]);
         assert_eq!(to_srgb8([0.25, 0.0, 0.0, 0.25], None), [255, 0, 0, 64]);
         assert_eq!(to_srgb8([f32::NAN, 2.0, -1.0, 1.0], None), [0, 255, 0, 255]);
+    }
+
+    /// A picture of 40 rows with a channel, written 16 rows at a time.
+    fn in_parts(path: &Path, whole: &Pixels, channel: &[f32]) -> anyhow::Result<()> {
+        let channels: &[&str] =
+            if Format::of(path) == Some(Format::Exr) { &["predicted_error"] } else { &[] };
+        let Pixels { width, height, data } = whole;
+        let record = Some("made from {}".to_owned());
+        let header = Header { width: *width, height: *height, background: None, record, channels };
+        write_rows(path, &header, |sink| {
+            let step = (width * ROWS) as usize;
+            for start in (0..data.len()).step_by(step) {
+                let range = start..data.len().min(start + step);
+                let channels = channels.iter().map(|_| &channel[range.clone()]).collect();
+                sink(Rows { pixels: &data[range.clone()], channels })?;
+            }
+            Ok(())
+        })
+    }
+
+    #[test]
+    fn rows_that_come_in_parts_are_the_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let pixel = |i: u32| [i as f32 / 2000.0, 0.25, 0.0, 0.5 + i as f32 / 2000.0];
+        let whole = Pixels { width: 21, height: 40, data: (0..21 * 40).map(pixel).collect() };
+        let charges: Vec<f32> = (0..21 * 40).map(|i| i as f32).collect();
+        for name in ["parts.png", "parts.exr"] {
+            let [parts, once] = [name, &format!("once-{name}")].map(|name| folder.path().join(name));
+            in_parts(&parts, &whole, &charges).unwrap();
+            write(&once, &whole, None).unwrap();
+            assert_eq!(read(&parts).unwrap(), read(&once).unwrap());
+            assert_eq!(record(&parts).as_deref(), Some("made from {}"));
+            assert_eq!(record(&once), None);
+        }
+        use ::exr::prelude::{ReadChannels, ReadLayers};
+        let layer = ::exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer();
+        let image = layer.all_attributes().from_file(folder.path().join("parts.exr")).unwrap();
+        let list = &image.layer_data.channel_data.list;
+        let names: Vec<String> = list.iter().map(|channel| channel.name.to_string()).collect();
+        assert_eq!(names, ["A", "B", "G", "R", "predicted_error"]);
+        assert!(list[4].sample_data.values_as_f32().eq(charges));
+    }
+
+    #[test]
+    fn a_picture_without_its_last_rows_is_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = [[0.5; 4]; 8 * ROWS as usize];
+        for name in ["a.png", "a.exr", "b.exr"] {
+            let header = Header { width: 8, height: 40, ..Header::default() };
+            let cut = write_rows(&folder.path().join(name), &header, |sink| {
+                sink(Rows { pixels: &first, channels: Vec::new() })?;
+                if name == "b.exr" { bail!("no more") } else { Ok(()) }
+            });
+            let told = format!("{:#}", cut.unwrap_err());
+            assert_eq!(told == "no more", name == "b.exr", "{told}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
     #[test]

@@ -90,7 +90,7 @@ impl Renderer {
             pace.learn(end - first, begin.elapsed());
             first = end;
         }
-        self.fetch_tile(tile, GridSize { pairs: 0, cells: 0 }, picture)
+        self.fetch_tile(job, tile, GridSize { pairs: 0, cells: 0 }, picture)
     }
 }
 

@@ -21,7 +21,7 @@
 //!    evaluated only at samples inside its support.
 //!
 //! `plan` cuts a picture that does not fit the device into tiles; `tiles` takes one tile through the
-//! stages; `renderer` knows which stages a change makes stale, and skips the others. On demand,
+//! stages; `bands` hands over rows of a picture that does not fit the host; `renderer` knows which stages a change makes stale, and skips the others. On demand,
 //! `read_cells` reads back what became of each cell ([`CellMap`], [`BundleDetail`]).
 //!
 //! # Numbers
@@ -32,6 +32,7 @@
 //! relative to the cell. So neither the unit of the run, nor its place in the world, nor a camera far
 //! away or deep inside costs precision.
 
+mod bands;
 #[doc(hidden)]
 pub mod bench;
 mod by_places;
@@ -58,6 +59,7 @@ mod tiles;
 mod transfer;
 mod view;
 
+pub use bands::{Band, BandTaker};
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
 pub use cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,

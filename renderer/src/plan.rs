@@ -79,6 +79,16 @@ impl Tile {
         [self.first[0] + (bundle % across) as u32, self.first[1] + (bundle / across) as u32]
     }
 
+    /// The tile in a picture that begins `rows` rows of bundles farther down.
+    pub(crate) fn higher(self, rows: u32) -> Tile {
+        Tile { first: [self.first[0], self.first[1] - rows], ..self }
+    }
+
+    /// The tile in a picture that begins `rows` rows of bundles farther up.
+    pub(crate) fn lower(self, rows: u32) -> Tile {
+        Tile { first: [self.first[0], self.first[1] + rows], ..self }
+    }
+
     fn fits(&self, limits: TileLimits) -> bool {
         self.cells() <= limits.cells && self.bundles() <= limits.bundles
     }

@@ -199,16 +199,21 @@ impl Renderer {
         } else {
             self.render_tiles(&mut job, progress, &mut picture, cells_wanted)?;
         }
-        let milliseconds = &mut picture.stats.milliseconds;
+        self.sum_up(&mut picture.stats);
+        Ok(picture)
+    }
+
+    /// Fills in what is known once all tiles are cast.
+    pub(crate) fn sum_up(&self, stats: &mut Stats) {
+        let milliseconds = &mut stats.milliseconds;
         milliseconds.total =
             milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
-        picture.stats.gpu_bytes = self.store.bytes()
+        stats.gpu_bytes = self.store.bytes()
             + self.grid.bytes()
             + self.order.bytes()
             + self.bundles.bytes()
             + self.adapt.bytes()
             + self.cast.bytes();
-        Ok(picture)
     }
 
     /// Renders tile by tile, and cuts those that are too large.
@@ -255,7 +260,7 @@ impl Renderer {
         self.transfer.write(&self.gpu, &scene.transfer)?;
         self.frame.write(&self.gpu, &[FrameUniform::new(scene, &slices, self.store.count())])?;
         self.bundles.write_slices(&self.gpu, &slices, pivot_depth(&scene.camera), scene.particles.unit())?;
-        Ok(Job { scene, slices, geometry, limits, resident, only_tile: false })
+        Ok(Job { scene, slices, geometry, limits, resident, only_tile: false, first_row: 0 })
     }
 
     /// The two halves of a tile that is too large, the one to be cast first at the end.
@@ -274,10 +279,16 @@ impl Renderer {
     /// A transparent picture, and what is known of it before it is rendered.
     pub(crate) fn blank(&self, scene: &Scene, slices: &Slices) -> Picture {
         let [width, height] = [scene.width, scene.height];
+        let pixels = vec![[0.0; 4]; width as usize * height as usize];
+        Picture { width, height, pixels, stats: self.stats_before(scene, slices) }
+    }
+
+    /// What is known of a picture before it is rendered.
+    pub(crate) fn stats_before(&self, scene: &Scene, slices: &Slices) -> Stats {
         let mut rejected = scene.particles.rejected();
         rejected.non_finite += scene.quantity.rejected();
         let bundles = Renderer::bundles(scene).map(u64::from).iter().product();
-        let stats = Stats {
+        Stats {
             adapter: self.gpu.adapter_name().to_owned(),
             backend: self.gpu.backend(),
             particles: scene.particles.len() as u64 - scene.quantity.rejected(),
@@ -287,8 +298,7 @@ impl Renderer {
             slices: slices.count,
             bundles,
             ..Stats::default()
-        };
-        Picture { width, height, pixels: vec![[0.0; 4]; width as usize * height as usize], stats }
+        }
     }
 }
 

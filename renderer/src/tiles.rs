@@ -26,6 +26,8 @@ pub(crate) struct Job<'a> {
     pub resident: bool,
     /// The picture is a single tile, whose grid serves the next picture too.
     pub only_tile: bool,
+    /// Row of bundles that is the first of the pixels: above 0 in a band of a picture.
+    pub first_row: u32,
 }
 
 /// What may be charged to the rays of `tile`; `None` where it is sampled in full: also behind layers
@@ -240,7 +242,7 @@ impl Renderer {
         }
         let kept = has_budget && job.only_tile && !self.recycles_bounds;
         self.analysed = kept.then(|| Analysed::of(job));
-        self.fetch_tile(tile, size, picture)
+        self.fetch_tile(job, tile, size, picture)
     }
 
     /// Forgets what was counted in the tile before.
@@ -363,6 +365,7 @@ impl Renderer {
 
     pub(crate) fn fetch_tile(
         &self,
+        job: &Job,
         tile: &Tile,
         size: GridSize,
         picture: &mut Picture,
@@ -371,7 +374,7 @@ impl Renderer {
         let pixels = self.cast.pixels.read_back(&self.gpu, &mut encoder, tile.bundles() * 64);
         self.gpu.queue.submit([encoder.finish()]);
         let pixels: Vec<[f32; 4]> = pixels.take(&self.gpu)?;
-        picture.place(tile, &pixels);
+        picture.place(&tile.higher(job.first_row), &pixels);
         let counters = self.bundles.read_counters(&self.gpu)?;
         picture.stats.count(&counters, size.cells, self.adapted);
         Ok(())

@@ -75,6 +75,12 @@ impl Annotations {
     pub fn draw_onto(&self, pixels: &mut Pixels, format: Format) {
         onto::lay(pixels, &self.drawing, self.background, format);
     }
+
+    /// The same over some rows of a picture of `size`, the first of which is row `first_row`.
+    pub fn draw_onto_rows(&self, rows: &mut [[f32; 4]], first_row: u32, size: [u32; 2], format: Format) {
+        let size = size.map(|side| side as usize);
+        onto::lay_on_rows(rows, first_row as usize, size, &self.drawing, self.background, format);
+    }
 }
 
 /// The annotations that `look` asks for over a picture of `subject`.

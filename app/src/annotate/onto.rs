@@ -13,8 +13,21 @@ use super::raster::raster;
 /// background, they mix in linear light.
 pub fn lay(pixels: &mut Pixels, drawing: &Drawing, background: Option<[f32; 3]>, format: Format) {
     let size = [pixels.width as usize, pixels.height as usize];
+    lay_on_rows(&mut pixels.data, 0, size, drawing, background, format);
+}
+
+/// The same over the rows from `first_row` on of a picture of `size`.
+pub fn lay_on_rows(
+    rows: &mut [[f32; 4]],
+    first_row: usize,
+    size: [usize; 2],
+    drawing: &Drawing,
+    background: Option<[f32; 3]>,
+    format: Format,
+) {
     raster(drawing, size, |[x, y], colour, opacity| {
-        let pixel = &mut pixels.data[y * size[0] + x];
+        let place = y.checked_sub(first_row).map(|row| row * size[0] + x);
+        let Some(pixel) = place.and_then(|place| rows.get_mut(place)) else { return };
         let colour = colour.map(|byte| f32::from(byte) / 255.0);
         *pixel = match (format, background) {
             (Format::Exr, _) => over_linear(*pixel, colour, opacity),
@@ -71,8 +84,19 @@ mod tests {
         background: Option<[f32; 3]>,
         format: Format,
     ) -> Pixels {
-        let [width, height] = SIZE;
-        let mut pixels = Pixels { width, height, data: vec![pixel; (width * height) as usize] };
+        drawn_by(look, background, |drawing| {
+            let [width, height] = SIZE;
+            let mut pixels = Pixels { width, height, data: vec![pixel; (width * height) as usize] };
+            lay(&mut pixels, drawing, background, format);
+            pixels
+        })
+    }
+
+    fn drawn_by(
+        look: &AnnotationsView,
+        background: Option<[f32; 3]>,
+        lay: impl FnOnce(&Drawing) -> Pixels,
+    ) -> Pixels {
         let transfer = TransferFunction::new(&View::default().transfer.points).unwrap();
         let camera = CameraView {
             eye: DVec3::new(0.0, 0.0, 5.0),
@@ -92,8 +116,22 @@ mod tests {
             target_depth: 5.0,
             background,
         };
-        lay(&mut pixels, &drawing(look, &subject), background, format);
-        pixels
+        lay(&drawing(look, &subject))
+    }
+
+    #[test]
+    fn bands_of_rows_are_drawn_over_as_the_whole_is() {
+        let ([width, height], pixel) = (SIZE, [0.2, 0.1, 0.0, 0.5]);
+        let in_bands = drawn_by(&all(), None, |drawing| {
+            let mut data = vec![pixel; (width * height) as usize];
+            for (band, rows) in data.chunks_mut((width * 48) as usize).enumerate() {
+                let size = SIZE.map(|side| side as usize);
+                lay_on_rows(rows, 48 * band, size, drawing, None, Format::Exr);
+            }
+            Pixels { width, height, data }
+        });
+        assert!(in_bands == drawn(&all(), pixel, None, Format::Exr));
+        assert!(in_bands.data.iter().any(|drawn| *drawn != pixel));
     }
 
     /// The bytes of a PNG.

@@ -7,7 +7,7 @@ use renderer::Renderer;
 
 use super::console::Console;
 use super::{DeviceArguments, SequenceArguments, ViewArguments, WrongArguments};
-use crate::export::{Film, Listener, Made, Output, Overlay, Pictures, Shard, StatsFile};
+use crate::export::{Film, Layer, Listener, Made, Output, Overlay, Pictures, Shard, StatsFile};
 use crate::image_file::Format;
 
 /// Render frames to picture files, without a window.
@@ -47,6 +47,9 @@ pub struct RenderArguments {
     /// Write what the pictures cost: sizes, evaluations, milliseconds; renders each once more in full, to count
     #[arg(long, value_name = "PATH.json")]
     stats: Option<PathBuf>,
+    /// Values to put into the channels of an EXR beside its colour: predicted-error, as `predicted_error`
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    layers: Vec<Layer>,
     /// Make only part I of N of the pictures, 1/N to N/N: for several jobs or computers at a time
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -64,6 +67,10 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let frames = run.sequence.len();
     let wrong = |flag| move |what| WrongArguments(format!("{flag}: {what}"));
     let output = Output::new(&arguments.out, frames, &[Format::Png, Format::Exr]).map_err(wrong("--out"))?;
+    let layers = arguments.layers.clone();
+    if !layers.is_empty() && output.format() != Some(Format::Exr) {
+        return Err(wrong("--layers")("only .exr files hold them: name such a file with --out".into()).into());
+    }
     let overlay = arguments.overlay.as_ref().map(|path| Overlay::new(path, frames, &output));
     let overlay = overlay.transpose().map_err(wrong("--overlay"))?;
     let stats = arguments.stats.as_ref().map(|path| {
@@ -71,8 +78,8 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
         StatsFile::new(path, frames > 1, arguments.resume)
     });
     let renderer = Renderer::new(arguments.device.open()?).context("sphcast")?;
-    let mut pictures = Pictures { renderer, output, overlay, stats, resumes: arguments.resume };
-    pictures.prepare()?;
+    let mut pictures = Pictures { renderer, output, overlay, stats, layers, resumes: arguments.resume };
+    pictures.prepare(&view)?;
 
     let mut film = Film::new(run, view, arguments.shard, console.clone());
     let mut kept = 0;

@@ -4,7 +4,9 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use anyhow::{Context, bail};
-use renderer::{CellMap, ParticleSet, Picture, Progress, Quantity, RenderError, Renderer, Scene, View};
+use renderer::{
+    BandTaker, CellMap, ParticleSet, Picture, Progress, Quantity, RenderError, Renderer, Scene, Stats, View,
+};
 
 use super::listener::{INTERRUPTED, Listener, Stage};
 use super::survey::Survey;
@@ -265,6 +267,20 @@ impl Film {
         part: Range<f32>,
     ) -> anyhow::Result<(Picture, CellMap)> {
         self.follow(index, part, |progress| renderer.render_with_cells(scene, progress))
+    }
+
+    /// The same in bands of rows, for a picture that is not to be held as a whole, with what is charged to
+    /// each pixel.
+    pub fn render_bands(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        index: usize,
+        part: Range<f32>,
+        rows: u32,
+        take: &mut BandTaker,
+    ) -> anyhow::Result<Stats> {
+        self.follow(index, part, |progress| renderer.render_bands(scene, rows, true, progress, take))
     }
 
     /// Shows the progress of `work`, and ends it when the user asks for that.

@@ -5,6 +5,7 @@
 //! - [`Listener`] is whoever waits for that: a terminal, or a window.
 
 mod film;
+mod layer;
 mod listener;
 mod output;
 mod pictures;
@@ -15,6 +16,7 @@ mod survey;
 mod timed;
 
 pub use film::{Content, Fatal, Film, Run};
+pub use layer::Layer;
 pub use listener::{Listener, Stage};
 pub use output::Output;
 pub use pictures::{Made, Overlay, Pictures};

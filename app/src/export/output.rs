@@ -58,6 +58,11 @@ impl Output {
         }
     }
 
+    /// The format of all its files.
+    pub fn format(&self) -> Option<Format> {
+        Format::of(&self.path(0))
+    }
+
     /// Makes the directory, if it is one and is not there.
     pub fn prepare(&self) -> anyhow::Result<()> {
         let Output::Directory(folder) = self else {

@@ -1,13 +1,14 @@
 //! One frame after the other to picture files.
 
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
-use renderer::{Picture, Renderer, Scene};
+use anyhow::{Context, bail};
+use renderer::{Band, CellMap, Picture, Renderer, Scene, Stats, View};
 
-use super::{Fatal, Film, Output, StatsFile, record};
+use super::{Fatal, Film, Layer, Output, StatsFile, record};
 use crate::annotate::Annotations;
-use crate::image_file::{self, Format, Header, Pixels, Rows};
+use crate::image_file::{self, Format, Header, Pixels, Rows, Unwritten};
 use crate::overlay::{self, Lettering};
 
 /// Where pictures of the classes of the cells go.
@@ -36,6 +37,8 @@ pub struct Pictures {
     pub output: Output,
     pub overlay: Option<Overlay>,
     pub stats: Option<StatsFile>,
+    /// What the pictures, which are EXR then, hold beside their colour.
+    pub layers: Vec<Layer>,
     /// Whether files that are there, and would not look different, are left as they are.
     pub resumes: bool,
 }
@@ -50,7 +53,17 @@ pub enum Made {
 
 impl Pictures {
     /// Makes the directories that pictures go to.
-    pub fn prepare(&self) -> anyhow::Result<()> {
+    ///
+    /// # Errors
+    /// A directory that cannot be made, or pictures as `view` wants them that would be too large.
+    pub fn prepare(&self, view: &View) -> anyhow::Result<()> {
+        let [width, height] = [view.image.width, view.image.height];
+        if self.overlay.is_some() && u64::from(width) * u64::from(height) > MOST_WHOLE {
+            bail!(
+                "--overlay: {width} x {height} pixels are more than the {MOST_WHOLE} that it can be drawn over; \
+                 leave it out, or make the picture smaller, such as 8192x8192"
+            );
+        }
         self.output.prepare()?;
         self.overlay.iter().try_for_each(|overlay| overlay.output.prepare())
     }
@@ -58,7 +71,8 @@ impl Pictures {
     /// Renders and writes the picture of one frame.
     pub fn make(&mut self, film: &Film, index: usize) -> anyhow::Result<Made> {
         let number = film.number(index);
-        let record = record::of(&film.common_view(), film.source(index), number, &[]);
+        let record =
+            record::of(&film.common_view(), film.source(index), number, &Layer::channels(&self.layers));
         if self.resumes && self.files(number).iter().all(|path| is_made(path, &record)) {
             self.stats.iter_mut().for_each(|stats| stats.keep(number));
             return Ok(Made::Kept);
@@ -67,7 +81,7 @@ impl Pictures {
         let content = film.content(index, &frame)?;
         let scene = content.scene(&content.view).with_context(|| film.name(index).to_owned())?;
         let annotations = Annotations::new(&content.view, &scene, &frame, number);
-        self.draw(film, &scene, index, &record, annotations.as_ref())?;
+        self.draw(film, &Shot { index, scene, annotations, record })?;
         Ok(Made::Written)
     }
 
@@ -77,62 +91,139 @@ impl Pictures {
         std::iter::once(self.output.path(number)).chain(overlay).collect()
     }
 
-    fn draw(
-        &mut self,
-        film: &Film,
-        scene: &Scene,
-        index: usize,
-        record: &str,
-        annotations: Option<&Annotations>,
-    ) -> anyhow::Result<()> {
-        let counted = scene.sampling.tolerance.is_some() && self.stats.is_some();
-        let part = if counted { 0.5 } else { 1.0 };
+    fn draw(&mut self, film: &Film, shot: &Shot) -> anyhow::Result<()> {
+        let counted = shot.scene.sampling.tolerance.is_some() && self.stats.is_some();
+        let part = 0.0..if counted { 0.5 } else { 1.0 };
+        let whole = self.overlay.is_some() || (self.layers.is_empty() && !is_large(&shot.scene));
+        let mut stats = match whole {
+            true => self.draw_whole(film, shot, part.clone())?,
+            false => self.draw_in_bands(film, shot, part.clone())?,
+        };
+        if counted {
+            stats.evaluations.full = self.full_evaluations(film, shot, part.end..1.0)?;
+        }
+        stats.milliseconds.read = film.read_milliseconds(shot.index);
+        stats.milliseconds.total += stats.milliseconds.read;
+        self.stats.as_mut().map_or(Ok(()), |file| file.add(film.number(shot.index), &stats)).map_err(fatal)
+    }
+
+    fn draw_whole(&mut self, film: &Film, shot: &Shot, part: Range<f32>) -> anyhow::Result<Stats> {
+        let Shot { index, scene, .. } = shot;
         let (picture, cells) = match self.overlay {
-            None => (film.render(&mut self.renderer, scene, index, 0.0..part)?, None),
+            None => (film.render(&mut self.renderer, scene, *index, part)?, None),
             Some(_) => {
-                let (picture, cells) = film.render_with_cells(&mut self.renderer, scene, index, 0.0..part)?;
+                let (picture, cells) = film.render_with_cells(&mut self.renderer, scene, *index, part)?;
                 (picture, Some(cells))
             }
         };
-        let Picture { width, height, pixels, mut stats } = picture;
-        if counted {
-            stats.evaluations.full = self.full_evaluations(film, scene.clone(), index, part)?;
-        }
+        let Picture { width, height, pixels, stats } = picture;
         let mut pixels = Pixels { width, height, data: pixels };
-        let number = film.number(index);
-        let background = film.view().image.background;
-        let write = |output: &Output, pixels: &Pixels| {
-            let header = Header { width, height, background, record: Some(record.to_owned()), channels: &[] };
-            image_file::write_rows(&output.path(number), &header, |sink| {
-                sink(Rows { pixels: &pixels.data, channels: Vec::new() })
+        let number = film.number(*index);
+        let layers = &self.layers;
+        let charged = cells.as_ref().filter(|_| !layers.is_empty()).map(charges);
+        let write = |output: &Output, pixels: &Pixels, layers: &[Layer]| {
+            let names = Layer::channels(layers);
+            image_file::write_rows(&output.path(number), &shot.header(film, &names), |sink| {
+                let channels = charged.iter().filter(|_| !layers.is_empty()).map(Vec::as_slice).collect();
+                sink(Rows { pixels: &pixels.data, channels })
             })
             .map_err(fatal)
         };
         // The picture comes last: where it is there, what belongs to it is, too.
         if let (Some(overlay), Some(cells)) = (&mut self.overlay, &cells) {
-            write(&overlay.output, &overlay::drawn_over(&pixels, cells, &mut overlay.lettering))?;
+            write(&overlay.output, &overlay::drawn_over(&pixels, cells, &mut overlay.lettering), &[])?;
         }
-        if let (Some(annotations), Some(format)) = (annotations, Format::of(&self.output.path(number))) {
+        if let (Some(annotations), Some(format)) = (&shot.annotations, self.output.format()) {
             annotations.draw_onto(&mut pixels, format);
         }
-        write(&self.output, &pixels)?;
-        stats.milliseconds.read = film.read_milliseconds(index);
-        stats.milliseconds.total += stats.milliseconds.read;
-        self.stats.as_mut().map_or(Ok(()), |file| file.add(number, &stats)).map_err(fatal)
+        write(&self.output, &pixels, layers)?;
+        Ok(stats)
     }
 
-    /// What full sampling computes for `scene`. An adaptive picture cannot know, so it is rendered once
-    /// more; that does not count for its time.
-    fn full_evaluations(
-        &mut self,
-        film: &Film,
-        mut scene: Scene,
-        index: usize,
-        begun: f32,
-    ) -> anyhow::Result<u64> {
-        scene.sampling.tolerance = None;
-        Ok(film.render(&mut self.renderer, &scene, index, begun..1.0)?.stats.evaluations.full)
+    /// Renders and writes some rows at a time: as many as suit the host, however large the picture is.
+    fn draw_in_bands(&mut self, film: &Film, shot: &Shot, part: Range<f32>) -> anyhow::Result<Stats> {
+        let Shot { index, scene, .. } = shot;
+        let (path, names) = (self.output.path(film.number(*index)), Layer::channels(&self.layers));
+        let (renderer, layers, format) = (&mut self.renderer, &self.layers, self.output.format());
+        image_file::write_rows(&path, &shot.header(film, &names), |sink| {
+            let mut refusal = None;
+            let mut take = |mut band: Band| {
+                if let (Some(annotations), Some(format)) = (&shot.annotations, format) {
+                    let size = [scene.width, scene.height];
+                    annotations.draw_onto_rows(&mut band.pixels, band.first_row, size, format);
+                }
+                let channels =
+                    band.charged.iter().filter(|_| !layers.is_empty()).map(Vec::as_slice).collect();
+                match sink(Rows { pixels: &band.pixels, channels }) {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(error) => {
+                        refusal = Some(error);
+                        ControlFlow::Break(())
+                    }
+                }
+            };
+            let stats = film.render_bands(renderer, scene, *index, part, rows_of_band(scene), &mut take);
+            refusal.map_or(stats, Err)
+        })
+        .map_err(fatal)
     }
+
+    /// What full sampling computes. An adaptive picture cannot know, so it is rendered once more; that does
+    /// not count for its time.
+    fn full_evaluations(&mut self, film: &Film, shot: &Shot, part: Range<f32>) -> anyhow::Result<u64> {
+        let mut scene = shot.scene.clone();
+        scene.sampling.tolerance = None;
+        let renderer = &mut self.renderer;
+        let stats = match is_large(&scene) {
+            false => film.render(renderer, &scene, shot.index, part)?.stats,
+            true => {
+                let mut drop_it = |_: Band| ControlFlow::Continue(());
+                film.render_bands(renderer, &scene, shot.index, part, rows_of_band(&scene), &mut drop_it)?
+            }
+        };
+        Ok(stats.evaluations.full)
+    }
+}
+
+/// What a picture is to show, and what its file says of that.
+struct Shot {
+    /// Of the frame in the film.
+    index: usize,
+    scene: Scene,
+    annotations: Option<Annotations>,
+    record: String,
+}
+
+impl Shot {
+    fn header<'a>(&self, film: &Film, channels: &'a [&'a str]) -> Header<'a> {
+        Header {
+            width: self.scene.width,
+            height: self.scene.height,
+            background: film.view().image.background,
+            record: Some(self.record.clone()),
+            channels,
+        }
+    }
+}
+
+/// What is charged to each pixel.
+fn charges(cells: &CellMap) -> Vec<f32> {
+    let [width, height] = cells.size;
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    pixels.map(|pixel| cells.charged(pixel)).collect()
+}
+
+/// Pixels of a picture that is rendered as a whole: 1 GiB of them.
+const MOST_WHOLE: u64 = 1 << 26;
+/// Pixels of a band of a larger one.
+const BAND: u32 = 1 << 24;
+
+fn is_large(scene: &Scene) -> bool {
+    u64::from(scene.width) * u64::from(scene.height) > MOST_WHOLE
+}
+
+fn rows_of_band(scene: &Scene) -> u32 {
+    (BAND / scene.width / image_file::ROWS).max(1) * image_file::ROWS
 }
 
 /// Whether the picture at `path` was made as `record` says. A file is written whole or not at all.
@@ -142,5 +233,5 @@ fn is_made(path: &Path, record: &str) -> bool {
 
 /// Where one file cannot be written, neither can the next.
 fn fatal(error: anyhow::Error) -> anyhow::Error {
-    Fatal(format!("{error:#}")).into()
+    if error.is::<Unwritten>() { Fatal(format!("{error:#}")).into() } else { error }
 }

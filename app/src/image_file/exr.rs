@@ -6,12 +6,16 @@ use std::path::Path;
 
 use exr::block::writer::ChunksWriter;
 use exr::block::{BlockIndex, UncompressedBlock, chunk::Chunk};
+use exr::error::Error;
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, ChannelDescription, LineOrder, SampleType, Text};
 use exr::meta::{BlockDescription, Headers, MetaData, header::Header as ExrHeader};
 use rayon::prelude::*;
 
 use super::{Header, ROWS, Refused, Rows, Sink};
+
+/// Blocks that are compressed at a time, and held until they are written.
+const BLOCKS: usize = 64;
 
 /// Name of the attribute with the record.
 const KEY: &str = "sphcast";
@@ -28,28 +32,32 @@ pub fn write(
     let headers: Headers = std::iter::once(described(header)).collect();
     let mut failure = None;
     let mut whole = false;
-    exr::block::write(BufWriter::new(file), headers, true, |meta, writer| {
+    let finished = exr::block::write(BufWriter::new(file), headers, true, |meta, writer| {
         let mut first_row = 0;
         whole = produce(&mut |rows: Rows| {
-            let chunks = compressed(&meta, header, first_row, &rows);
-            first_row += rows.pixels.len() / header.width as usize;
-            let write = |chunks: Vec<(usize, Chunk)>| {
-                chunks.into_iter().try_for_each(|(index, chunk)| writer.write_chunk(index, chunk))
-            };
-            chunks.and_then(write).map_err(|error| {
-                failure = Some(error);
-                Refused.into()
-            })
+            let size = header.width as usize * ROWS as usize * BLOCKS;
+            for start in (0..rows.pixels.len()).step_by(size) {
+                let part = rows.part(start..rows.pixels.len().min(start + size));
+                let write = |chunks: Vec<(usize, Chunk)>| {
+                    chunks.into_iter().try_for_each(|(index, chunk)| writer.write_chunk(index, chunk))
+                };
+                compressed(&meta, header, first_row, &part).and_then(write).map_err(|error| {
+                    failure = Some(error);
+                    Refused
+                })?;
+                first_row += part.pixels.len() / header.width as usize;
+            }
+            Ok(())
         });
-        // What is missing is told below; here it would be told as a mistake of the program.
-        Ok(())
-    })
-    .or_else(|error| if whole { Err(error) } else { Ok(()) })?;
+        whole &= first_row == header.height as usize;
+        // To complete a file without all blocks would be a mistake of the program.
+        if whole { Ok(()) } else { Err(Error::Aborted) }
+    });
     match failure {
-        Some(exr::error::Error::Io(error)) => Err(error.into()),
+        Some(Error::Io(error)) => Err(error.into()),
         Some(error) => Err(error.into()),
         None if !whole => Err(Refused.into()),
-        None => Ok(()),
+        None => Ok(finished?),
     }
 }
 
