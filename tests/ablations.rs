@@ -35,7 +35,13 @@ fn lattice() -> Scene {
     for (x, y, z) in (0..SIDE).flat_map(|x| (0..SIDE).flat_map(move |y| (0..SIDE).map(move |z| (x, y, z)))) {
         let position = DVec3::new(place(x), place(y), place(z)) + 0.15 * spacing * random.in_cube();
         let quantity = position.length().min(1.0);
-        particles.push(Particle { position, support_radius: 2.0 * spacing, volume: 1.0, quantity });
+        particles.push(Particle {
+            position,
+            support_radius: 2.0 * spacing,
+            volume: 1.0,
+            quantity,
+            opacity: 0.0,
+        });
     }
     let mut view = plain_view(240, 180);
     let camera = view.camera.as_mut().expect("a plain view has a camera");

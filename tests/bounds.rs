@@ -5,10 +5,11 @@ use std::ops::{ControlFlow, Range};
 
 use reference::bricks::{Bricks, Place, difference, lit};
 use reference::device::{render, shared};
-use reference::guarantee::{calm, case, prepare_anyway};
+use reference::guarantee::{calm, case, prepare_anyway, with_opacity};
+use reference::picture::Values;
 use reference::random::Random;
 use reference::scenes::Scene;
-use renderer::{Brick, BundleDetail, CellDetail, KnownValues};
+use renderer::{Brick, BundleDetail, CellDetail, FieldInBrick, KnownValues};
 
 /// How what the device says is read: as it is, or wrongly on purpose.
 #[derive(Clone, Copy)]
@@ -45,6 +46,7 @@ struct Seen {
     ended: usize,
     charged: usize,
     sloped: usize,
+    coloured: usize,
 }
 
 /// The search for broken bounds.
@@ -93,7 +95,7 @@ impl Search<'_> {
             let mut stretches = Vec::new();
             for &ray in &rays {
                 let samples = self.twin.samples(&place, ray, self.reading.shifted);
-                samples.iter().for_each(|u| self.within_cell(&place, cell, *u));
+                samples.iter().for_each(|values| self.within_cell(&place, cell, *values));
                 let response = self.twin.response(&place, ray, &samples);
                 let stretch = Stretch { front: fronts[ray], response };
                 if let Some(bricks) = &cell.bricks {
@@ -119,17 +121,26 @@ impl Search<'_> {
     }
 
     /// u at a sample lies within the bounds of its cell and of its brick.
-    fn within_cell(&mut self, place: &Place, cell: &CellDetail, u: Option<f64>) {
-        self.within(place, "the cell", cell.values, u, AS_IT_IS);
+    fn within_cell(&mut self, place: &Place, cell: &CellDetail, values: Option<Values>) {
+        self.within(place, "the cell", cell.values, values.map(|[_, opacity]| opacity), AS_IT_IS);
         if let Some(bricks) = &cell.bricks {
-            let values = bricks[place.column as usize][place.brick as usize].values;
-            self.within(place, "the brick", values, u, self.reading);
+            let brick = &bricks[place.column as usize][place.brick as usize];
+            self.within_brick(place, "the brick", brick, values);
+        }
+    }
+
+    /// So it does of both fields.
+    fn within_brick(&mut self, place: &Place, what: &str, brick: &Brick, values: Option<Values>) {
+        self.within(place, what, brick.opacity.values, values.map(|[_, opacity]| opacity), self.reading);
+        if let Some(colour) = brick.colour {
+            self.seen.coloured += 1;
+            self.within(place, what, colour.values, values.map(|[colour, _]| colour), self.reading);
         }
     }
 
     /// So does u anywhere else in the brick.
     fn between_samples(&mut self, place: &Place, brick: &Brick) {
-        match brick.values {
+        match brick.opacity.values {
             KnownValues::Unknown => panic!("{place:?} has a brick that is not known"),
             KnownValues::Empty => self.seen.empty += 1,
             KnownValues::Between { covered: true, .. } => self.seen.covered += 1,
@@ -143,8 +154,8 @@ impl Search<'_> {
                 self.random.between(f64::from(corner[axis]) + 0.5, last)
             });
             let deep = self.random.between(0.5, 3.5) + self.reading.shifted;
-            let u = self.twin.value(pixel, f64::from(place.first_slab()) + deep);
-            self.within(place, "the brick between its samples", brick.values, u, self.reading);
+            let values = self.twin.values(pixel, f64::from(place.first_slab()) + deep);
+            self.within_brick(place, "the brick between its samples", brick, values);
         }
     }
 
@@ -188,9 +199,39 @@ impl Search<'_> {
 
     /// u at the samples of a ray is near the slope of the brick, and the light of samples on the slope no
     /// farther from the ray's than is charged.
-    fn slope(&mut self, place: &Place, brick: &Brick, ray: usize, samples: &[Option<f64>; 4], is: Stretch) {
-        let (Some(slope), KnownValues::Between { low, high, .. }) = (brick.slope, brick.values) else {
-            return;
+    fn slope(
+        &mut self,
+        place: &Place,
+        brick: &Brick,
+        ray: usize,
+        samples: &[Option<Values>; 4],
+        is: Stretch,
+    ) {
+        let fields = [brick.colour.unwrap_or(brick.opacity), brick.opacity];
+        let sides = [0, 1].map(|side| {
+            let samples = samples.map(|values| values.map(|values| values[side]));
+            self.on_slope(place, &fields[side], ray, &samples)
+        });
+        let [Some(colour), Some(opacity)] = sides else { return };
+        let Some(charge) = brick.coarse_charge.map(f64::from) else { return };
+        self.seen.sloped += 1;
+        let on_slope = std::array::from_fn(|k| Some([colour[k], opacity[k]]));
+        let off = is.from(self.twin.response(place, ray, &on_slope));
+        if off > self.reading.charge * charge + ROUNDING {
+            self.broken.push(format!("{place:?}: the slope is {off} from a ray, charged {charge}"));
+        }
+    }
+
+    /// u on the slope of a field, to which u at the samples of a ray is near; `None` where it has none.
+    fn on_slope(
+        &mut self,
+        place: &Place,
+        field: &FieldInBrick,
+        ray: usize,
+        samples: &[Option<f64>; 4],
+    ) -> Option<[f64; 4]> {
+        let (Some(slope), KnownValues::Between { low, high, .. }) = (field.slope, field.values) else {
+            return None;
         };
         let rise = slope.rise.map(|rise| self.reading.rise * f64::from(rise));
         let on_slope = self.twin.places(place, ray).map(|at| {
@@ -202,12 +243,7 @@ impl Search<'_> {
                 self.broken.push(format!("{place:?}: {u:?} is not near {on_slope} on {slope:?}"));
             }
         }
-        let Some(charge) = brick.coarse_charge.map(f64::from) else { return };
-        self.seen.sloped += 1;
-        let off = is.from(self.twin.response(place, ray, &on_slope.map(Some)));
-        if off > self.reading.charge * charge + ROUNDING {
-            self.broken.push(format!("{place:?}: the slope is {off} from a ray, charged {charge}"));
-        }
+        Some(on_slope)
     }
 
     /// What is shown in place of a whole column is no farther from any of its rays than its bricks are
@@ -235,20 +271,37 @@ fn behind(front: [f64; 4], back: [f64; 4]) -> [f64; 4] {
     std::array::from_fn(|channel| front[channel] + (1.0 - front[3]) * back[channel])
 }
 
+/// Whether the opacity has a field of its own.
+#[derive(Clone, Copy)]
+enum Fields {
+    One,
+    Two,
+}
+
 /// Scenes of all shapes, kernels and transfer functions, with a tolerance that lets columns end.
-fn scenes(seeds: Range<u64>) -> impl Iterator<Item = Scene> {
+fn scenes(seeds: Range<u64>, fields: Fields) -> impl Iterator<Item = Scene> {
     // Of 1029, u is a million beyond its range in some places.
     let cases = seeds.chain([1029]).map(case).map(|mut scene| {
         scene.view.sampling.tolerance = Some(0.01);
         scene
     });
-    cases.chain([calm(71, 65, 43), calm(72, 40, 33)])
+    let one_field = cases.chain([calm(71, 65, 43), calm(72, 40, 33)]);
+    (0..).zip(one_field).map(move |(number, scene)| match fields {
+        Fields::One => scene,
+        Fields::Two => with_opacity(number, scene),
+    })
 }
 
 /// Looks for broken bounds in some bundles of each scene, until `enough` are found.
-fn search(seeds: Range<u64>, reading: Reading, bundles: usize, enough: usize) -> (Seen, Vec<String>) {
+fn search(
+    seeds: Range<u64>,
+    fields: Fields,
+    reading: Reading,
+    bundles: usize,
+    enough: usize,
+) -> (Seen, Vec<String>) {
     let (mut seen, mut broken) = (Seen::default(), Vec::new());
-    for (seed, scene) in (0..).zip(scenes(seeds)) {
+    for (seed, scene) in (0..).zip(scenes(seeds, fields)) {
         let (twin, prepared) = (Bricks::new(&scene), prepare_anyway(&scene));
         let mut renderer = shared();
         render(&mut renderer, &prepared);
@@ -276,10 +329,10 @@ fn search(seeds: Range<u64>, reading: Reading, bundles: usize, enough: usize) ->
 
 #[test]
 fn what_is_true_lies_within_all_bounds() {
-    let (seen, broken) = search(200..236, AS_IT_IS, 3, 20);
+    let (seen, broken) = search(200..236, Fields::One, AS_IT_IS, 3, 20);
     println!("{seen:?}");
     assert!(broken.is_empty(), "{}", broken.join("\n"));
-    let Seen { covered, uncovered, empty, ended, charged, sloped } = seen;
+    let Seen { covered, uncovered, empty, ended, charged, sloped, .. } = seen;
     assert!(
         [covered, uncovered, empty, ended, charged, sloped].iter().all(|count| *count > 1000),
         "{seen:?}"
@@ -287,9 +340,24 @@ fn what_is_true_lies_within_all_bounds() {
 }
 
 #[test]
+fn what_is_true_of_two_fields_lies_within_all_bounds() {
+    let (seen, broken) = search(200..236, Fields::Two, AS_IT_IS, 3, 20);
+    println!("{seen:?}");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    let Seen { covered, uncovered, empty, charged, sloped, coloured, .. } = seen;
+    assert!(
+        [covered, uncovered, empty, charged, sloped, coloured].iter().all(|count| *count > 1000),
+        "{seen:?}"
+    );
+}
+
+#[test]
 #[ignore = "takes minutes"]
 fn what_is_true_lies_within_all_bounds_of_many_scenes() {
-    let (seen, broken) = search(1000..1600, AS_IT_IS, 4, 20);
+    let (seen, broken) = search(1000..1600, Fields::One, AS_IT_IS, 4, 20);
+    println!("{seen:?}");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    let (seen, broken) = search(1000..1600, Fields::Two, AS_IT_IS, 4, 20);
     println!("{seen:?}");
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
@@ -305,8 +373,10 @@ fn wrong_bounds_are_noticed() {
         ("a slope nearer by a half", Reading { off: 0.5, ..AS_IT_IS }),
         ("a slope that falls", Reading { rise: -1.0, ..AS_IT_IS }),
     ] {
-        let (_, broken) = search(200..236, reading, 2, 1);
-        assert!(!broken.is_empty(), "{what}: nobody notices");
-        println!("{what}: {}", broken[0]);
+        for fields in [Fields::One, Fields::Two] {
+            let (_, broken) = search(200..236, fields, reading, 2, 1);
+            assert!(!broken.is_empty(), "{what}: nobody notices");
+            println!("{what}: {}", broken[0]);
+        }
     }
 }

@@ -230,7 +230,7 @@ fn bricks_are_bounded_inside_their_cell() {
                 panic!("{}: bricks are known and their cell is not", scene.name)
             };
             for brick in bricks.iter().flatten() {
-                let KnownValues::Between { low, high, covered } = brick.values else { continue };
+                let KnownValues::Between { low, high, covered } = brick.opacity.values else { continue };
                 let slack = 1e-5;
                 assert!(least - slack <= low && low <= high && high <= greatest + slack, "{}", scene.name);
                 covered_bricks += u32::from(covered);

@@ -17,7 +17,7 @@ fn scene(name: &str, particles: Vec<Particle>) -> Scene {
 }
 
 fn particle(position: DVec3, support_radius: f64, quantity: f64) -> Particle {
-    Particle { position, support_radius, volume: 1.0, quantity }
+    Particle { position, support_radius, volume: 1.0, quantity, opacity: 0.0 }
 }
 
 fn assert_empty(scene: &Scene) {

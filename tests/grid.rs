@@ -117,7 +117,7 @@ fn four_cells(far: f64) -> Setup {
 }
 
 fn at(x: f64, y: f64, depth: f64, support_radius: f64) -> Particle {
-    Particle { position: DVec3::new(x, y, -depth), support_radius, volume: 1.0, quantity: 0.0 }
+    Particle { position: DVec3::new(x, y, -depth), support_radius, volume: 1.0, quantity: 0.0, opacity: 0.0 }
 }
 
 #[test]

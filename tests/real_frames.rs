@@ -45,6 +45,7 @@ fn particles(frame: &Frame, view: &View) -> Vec<Particle> {
         support_radius,
         volume: 1.0 / density.get(row, 0),
         quantity: quantity.magnitude(row),
+        opacity: 0.0,
     };
     (0..frame.len()).map(particle).collect()
 }

@@ -19,7 +19,7 @@ fn dense(side: usize, width: u32, height: u32) -> Scene {
             let corner = DVec3::from_array(index.map(|i| i as f64));
             let position = spacing * (corner + 0.3 * random.in_cube() + 0.5) - 1.0;
             let quantity = 0.5 + 0.3 * (2.0 * position.x + position.y).sin() + 0.1 * random.unit();
-            Particle { position, support_radius: 0.4, volume: 1.0, quantity }
+            Particle { position, support_radius: 0.4, volume: 1.0, quantity, opacity: 0.0 }
         })
         .collect();
     let mut scene = Scene { name: format!("dense {side}"), particles, view: plain_view(width, height) };

@@ -59,7 +59,7 @@ fn heap(count: usize, spread: f64, transfer: &[ControlPoint]) -> Scene {
     let name = format!("a heap, {spread} apart, {} nodes", transfer.len());
     let mut scene = extremes::plain(name, 31, [24, 17]);
     let position = DVec3::new(0.1, 0.2, 0.3);
-    let heap = Particle { position, support_radius: 0.3, volume: 1.0, quantity: 0.5 };
+    let heap = Particle { position, support_radius: 0.3, volume: 1.0, quantity: 0.5, opacity: 0.0 };
     let some = |_| Particle { quantity: 0.5 + spread * (random.unit() - 0.5), ..heap };
     scene.particles.extend((0..count).map(some));
     scene.view.transfer.points = transfer.to_vec();

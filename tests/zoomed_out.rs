@@ -48,6 +48,7 @@ fn fine_block() -> Scene {
             support_radius: 0.01 * pixel,
             volume: 1.0,
             quantity: f64::from(x) / 39.0,
+            opacity: 0.0,
         });
     }
     scene
@@ -93,6 +94,7 @@ fn lone_motes_never_vanish() {
             support_radius: random.log_between(1e-12, 1e-3),
             volume: 1.0,
             quantity: 0.5,
+            opacity: 0.0,
         };
         let mut scene = Scene { name: "mote".to_owned(), particles: vec![mote], view: plain_view(16, 12) };
         scene.view.transfer.reference_length = Some(0.01);
@@ -111,6 +113,7 @@ fn motes_of_no_size_at_all_never_vanish() {
         support_radius: 1e-16,
         volume: 1.0,
         quantity: 0.4,
+        opacity: 0.0,
     };
     let view = plain_view(16, 12);
     assert_alike([Scene { name: "mote of 1e-16".to_owned(), particles: vec![mote], view }]);

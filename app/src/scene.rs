@@ -161,10 +161,17 @@ fn volumes(frame: &Frame) -> impl Fn(usize) -> f64 + Sync {
     move |row| mass.map_or(1.0, |m| m.get(row, 0)) / density.map_or(1.0, |rho| rho.get(row, 0))
 }
 
-/// The quantity of the kept particles: the one that the view names, or [`Selection::default_of`] the frame.
+/// The quantity of the kept particles: the one that the view names, or [`Selection::default_of`] the frame;
+/// with that of their opacity, where the view has one.
 pub fn quantity(frame: &Frame, particles: &ParticleSet, view: &QuantityView) -> Result<Quantity, SceneError> {
     let selection = Selection::new(frame, view.name.as_deref())?;
-    Ok(Quantity::new(particles, view.range, |row| selection.value(row)))
+    let colour = Quantity::new(particles, view.range, |row| selection.value(row));
+    let Some(opacity) = &view.opacity else { return Ok(colour) };
+    let selection = match &opacity.name {
+        Some(name) => Selection::new(frame, Some(name))?,
+        None => selection,
+    };
+    Ok(colour.with_opacity(&Quantity::new(particles, opacity.range, |row| selection.value(row))))
 }
 
 /// One line on the particles of a frame that are left out of its picture; `None` where all are in it.

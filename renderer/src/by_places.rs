@@ -33,7 +33,7 @@ impl Renderer {
         let layers = layers_at_once(&grid)?;
         let camera = &job.scene.camera;
         let pivot = job.scene.particles.to_device(camera.eye + pivot_depth(camera) * camera.forward);
-        let object_space = ObjectSpace::new(&self.gpu, job.scene.kernel, &grid, pivot)?;
+        let object_space = ObjectSpace::new(&self.gpu, job.scene, &grid, pivot)?;
         let built = begin.elapsed().as_secs_f64() * 1e3;
         // What is known of cells is written over.
         self.forget();

@@ -162,7 +162,7 @@ pub fn column_of([x, y]: [u32; 2]) -> usize {
     lane_of(inside(x), inside(y)) / 4
 }
 
-/// What is known of u, the quantity in its range, at the samples of a cell or brick.
+/// What is known of u, a field in its range, at the samples of a cell or brick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum KnownValues {
     /// It was not looked at.
@@ -176,11 +176,20 @@ pub enum KnownValues {
 /// 2 × 2 rays × 4 slices of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brick {
-    pub values: KnownValues,
+    /// The field that decides the opacity.
+    pub opacity: FieldInBrick,
+    /// The one that decides the colour, where that is another one.
+    pub colour: Option<FieldInBrick>,
     /// What it would add to the error of its rays without a sample; `None` where they have ended.
     pub charge: Option<f32>,
     /// What it would add at level 2 or by its slope, where that is considered.
     pub coarse_charge: Option<f32>,
+}
+
+/// What is known of a field in a brick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldInBrick {
+    pub values: KnownValues,
     /// Where every sample meets a particle.
     pub slope: Option<Slope>,
 }
@@ -205,7 +214,7 @@ pub struct CellDetail {
     pub cell: MapCell,
     /// View depths where it begins and ends, in the unit of the run.
     pub depths: [f64; 2],
-    /// Of the particles of the cell: bounds of all its samples.
+    /// Of the particles of the cell: bounds of all its samples, of the field that decides the opacity.
     pub values: KnownValues,
     /// Where they are known: by our bound.
     pub bricks: Option<Box<CellBricks>>,

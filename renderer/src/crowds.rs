@@ -24,13 +24,14 @@ impl Renderer {
         tile: &Tile,
         totals: Totals,
     ) -> Result<Option<TooLarge>, RenderError> {
+        let fields = job.scene.quantity.fields();
         let busiest = u64::from(totals.busiest_bundle);
         if self.gpu.is_software() && busiest > SOFTWARE_ROUNDS {
             let what = "references along a bundle, on a software adapter";
             return Ok(Some(TooLarge { what, needed: busiest, limit: SOFTWARE_ROUNDS }));
         }
         if totals.largest_cell <= CROWD {
-            self.cast.crowds.write(&self.gpu, &[])?;
+            self.cast.crowds.write(&self.gpu, &[], fields)?;
             return Ok(None);
         }
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
@@ -44,7 +45,7 @@ impl Renderer {
         let capacity = self.grid.pairs.capacity().min(job.limits.pairs);
         let uniform = TileUniform { portions: needed as u32, ..TileUniform::new(tile, capacity) };
         self.tile.write(&self.gpu, &[uniform])?;
-        self.cast.crowds.write(&self.gpu, &portions)?;
+        self.cast.crowds.write(&self.gpu, &portions, fields)?;
         Ok(None)
     }
 
@@ -67,7 +68,7 @@ impl Renderer {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let shared = self.shared_bindings();
             self.timing.pass(&mut encoder, "ray cast", |pass| {
-                self.cast.record_portions(&self.gpu, pass, job.scene.kernel, &shared, end - first);
+                self.cast.record_portions(&self.gpu, pass, job.scene, &shared, end - first);
             });
             drop(shared);
             self.submit(encoder, times)?;

@@ -43,6 +43,7 @@ mod error;
 mod gpu;
 mod inspect;
 mod kernel;
+mod opacity;
 mod pace;
 mod particles;
 mod picture;
@@ -63,7 +64,7 @@ pub use bands::{Band, BandTaker};
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
 pub use cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,
-    CellMap, KnownValues, MapCell, Slope, bundle_of, column_of,
+    CellMap, FieldInBrick, KnownValues, MapCell, Slope, bundle_of, column_of,
 };
 pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};
@@ -77,6 +78,6 @@ pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ControlPoint, TransferFunction};
 pub use view::{
-    AnnotationsView, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, ParticleView, QuantityView,
-    SamplingView, SelectView, TransferView, View, ViewError,
+    AnnotationsView, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, OpacityView, ParticleView,
+    QuantityView, SamplingView, SelectView, TransferView, View, ViewError,
 };

@@ -241,11 +241,14 @@ impl ParticleSet {
     }
 }
 
-/// The quantity of each kept particle, normalised so that the view's range becomes [0, 1].
+/// The quantity of each kept particle, normalised so that the view's range becomes [0, 1]; or two, one
+/// for the colour and one for the opacity.
 pub struct Quantity {
-    id: u64,
-    range: [f64; 2],
-    rejected: u64,
+    pub(crate) id: u64,
+    pub(crate) range: [f64; 2],
+    pub(crate) opacity_range: Option<[f64; 2]>,
+    pub(crate) rejected: u64,
+    /// One number a particle, or two where there is an opacity range.
     pub(crate) values: Vec<f32>,
 }
 
@@ -286,7 +289,7 @@ impl Quantity {
             })
             .collect();
         let rejected = values.par_iter().filter(|&&u| u == Self::REJECTED).count() as u64;
-        Quantity { id: next_id(), range: [low, high], rejected, values }
+        Quantity { id: next_id(), range: [low, high], opacity_range: None, rejected, values }
     }
 
     /// The values that u = 0 and u = 1 stand for.
@@ -294,13 +297,13 @@ impl Quantity {
         self.range
     }
 
-    /// Particles left out because their quantity is not finite.
+    /// Particles left out because their quantity, or one of the two, is not finite.
     pub fn rejected(&self) -> u64 {
         self.rejected
     }
 
     pub(crate) fn is_rejected(&self, index: usize) -> bool {
-        self.values[index] == Self::REJECTED
+        self.values[index * self.fields().count() as usize] == Self::REJECTED
     }
 
     pub(crate) fn id(&self) -> u64 {
@@ -308,7 +311,7 @@ impl Quantity {
     }
 }
 
-fn next_id() -> u64 {
+pub(crate) fn next_id() -> u64 {
     static NEXT: AtomicU64 = AtomicU64::new(1);
     NEXT.fetch_add(1, Ordering::Relaxed)
 }

@@ -2,6 +2,7 @@
 
 use crate::camera::CELL_SLICES;
 use crate::stages::adapt::COLUMN_STRIDE;
+use crate::stages::shared::Fields;
 
 /// A box of cells that is built and cast at once: bundles × layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,35 +31,38 @@ pub(crate) struct TileLimits {
 
 /// Bytes of a bundle's 64 pixels.
 const BUNDLE_BYTES: u64 = 64 * 16;
-/// Bytes of the sums over a portion: two for each sample of a cell.
-const PORTION_BYTES: u64 = 64 * 16 * 8;
-/// Bytes of a particle in the widest of its arrays, and in all of them.
+/// Bytes of a sum over a portion, for each sample of a cell.
+const PORTION_BYTES: u64 = 64 * 16 * 4;
+/// Bytes of a particle in the widest of its arrays, and in all of them but its quantities.
 const PARTICLE_STRIDE: u64 = 16;
-const PARTICLE_BYTES: u64 = 56;
+const PARTICLE_BYTES: u64 = 52;
 /// Bytes of a reference, and of a cell's counter.
 const WORD: u64 = 4;
 /// Bytes of a cell in the widest of the arrays over all cells.
 const CELL_STRIDE: u64 = 32;
-/// Bytes of an analysed cell in the widest of its arrays, and in all of them: those of both bounds.
+/// Bytes of an analysed cell for each field, in the widest of its arrays, and in all others: those of both
+/// bounds.
 const FILLED_STRIDE: u64 = COLUMN_STRIDE * 16;
-const FILLED_BYTES: u64 = FILLED_STRIDE + 1120;
+const FILLED_BYTES: u64 = 1120;
 
 impl TileLimits {
     /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:
     /// a quarter each for particles, references, cells and pixels, and another one for an analysis.
-    pub(crate) fn new(binding: u64, memory: u64) -> TileLimits {
+    pub(crate) fn new(binding: u64, memory: u64, fields: Fields) -> TileLimits {
         let quarter = memory / 4;
         // Rounded down as buffers are rounded up.
         let share = binding.min(quarter) / 16 * 16;
         // Places in the shaders are 32 bits wide.
         let words = (share / WORD).clamp(1, u64::from(u32::MAX) / 2);
+        let fields = fields.count();
+        let (particle, filled) = (PARTICLE_BYTES + WORD * fields, FILLED_STRIDE * fields);
         TileLimits {
-            particles: (binding / PARTICLE_STRIDE).min(quarter / PARTICLE_BYTES).max(1),
+            particles: (binding / PARTICLE_STRIDE).min(quarter / particle).max(1),
             pairs: words,
             // The upper levels of the prefix sum need a little more than one in two thousand.
             cells: (words - words / 1024).min(share / CELL_STRIDE).max(1),
-            filled_cells: (binding / FILLED_STRIDE).min(quarter / FILLED_BYTES).max(1),
-            portions: share / PORTION_BYTES,
+            filled_cells: (binding / filled).min(quarter / (filled + FILLED_BYTES)).max(1),
+            portions: share / (PORTION_BYTES * (1 + fields)),
             bundles: (share / BUNDLE_BYTES).max(1),
         }
     }

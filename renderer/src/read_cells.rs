@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::camera::{CELL_SLICES, Slices};
 use crate::cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMNS, CellBricks, CellClass, CellDetail, CellMap,
-    KnownValues, MapCell,
+    FieldInBrick, KnownValues, MapCell,
 };
 use crate::error::RenderError;
 use crate::picture::Picture;
@@ -21,6 +21,7 @@ use crate::stages::adapt::entries::{
     BundleEntry, COVERED, CellEntry, ColumnValues, FIRST_SLOT, Offers, WHOLE_KNOWN,
 };
 use crate::stages::cast::CROWD;
+use crate::stages::shared::Fields;
 use crate::stats::Milliseconds;
 use crate::tiles::Job;
 
@@ -181,7 +182,7 @@ impl Renderer {
             });
         }
         match detail.bound {
-            Bound::Difference => self.add_bricks(&entries, &mut details)?,
+            Bound::Difference => self.add_bricks(&entries, job.scene.quantity.fields(), &mut details)?,
             Bound::Paper => self.add_slabs(&entries, &mut details)?,
         }
         detail.cells.append(&mut details);
@@ -189,9 +190,14 @@ impl Renderer {
     }
 
     /// Adds the bricks where they are known.
-    fn add_bricks(&self, entries: &[CellEntry], cells: &mut [CellDetail]) -> Result<(), RenderError> {
+    fn add_bricks(
+        &self,
+        entries: &[CellEntry],
+        fields: Fields,
+        cells: &mut [CellDetail],
+    ) -> Result<(), RenderError> {
         let known = || entries.iter().map(|entry| entry.slot).filter(|slot| *slot >= FIRST_SLOT);
-        let mut bricks = self.read_bricks(&known().collect::<Vec<u32>>())?.into_iter();
+        let mut bricks = self.read_bricks(&known().collect::<Vec<u32>>(), fields)?.into_iter();
         for (cell, entry) in cells.iter_mut().zip(entries) {
             (cell.bricks, cell.shown) = (entry.slot >= FIRST_SLOT).then(|| bricks.next()).flatten().unzip();
         }
@@ -224,7 +230,7 @@ impl Renderer {
     }
 
     /// Reads the bricks of cells with these slots, and what stands for their columns.
-    fn read_bricks(&self, slots: &[u32]) -> Result<Vec<ReadBricks>, RenderError> {
+    fn read_bricks(&self, slots: &[u32], fields: Fields) -> Result<Vec<ReadBricks>, RenderError> {
         let places: Vec<Range<u64>> = slots
             .iter()
             .map(|slot| u64::from(slot - FIRST_SLOT) * COLUMNS as u64)
@@ -234,7 +240,9 @@ impl Renderer {
             return Ok(Vec::new());
         }
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let values = self.adapt.bricks.read_ranges(&self.gpu, &mut encoder, &places);
+        let fields = fields.count();
+        let of_fields: Vec<_> = places.iter().map(|range| range.start * fields..range.end * fields).collect();
+        let values = self.adapt.bricks.read_ranges(&self.gpu, &mut encoder, &of_fields);
         let offers = self.adapt.offers.read_ranges(&self.gpu, &mut encoder, &places);
         let shows = self.adapt.shows.read_ranges(&self.gpu, &mut encoder, &places);
         self.gpu.queue.submit([encoder.finish()]);
@@ -242,11 +250,12 @@ impl Renderer {
         let offers: Vec<Offers> = offers.take(&self.gpu)?;
         let shows: Vec<[f32; 4]> = shows.take(&self.gpu)?;
         let column = |place: usize| {
+            let fields = &values[place * fields as usize..(place + 1) * fields as usize];
             std::array::from_fn(|brick| Brick {
-                values: KnownValues::of([values[place].low[brick], values[place].high[brick]]),
+                opacity: fields[fields.len() - 1].of_brick(brick),
+                colour: (fields.len() > 1).then(|| fields[0].of_brick(brick)),
                 charge: offers[place].to_show(brick),
                 coarse_charge: offers[place].to_coarsen(brick),
-                slope: values[place].slope(brick),
             })
         };
         let cell = |number: usize| {
@@ -308,6 +317,13 @@ impl ReadBundle {
             }
         };
         MapCell { layer: tile.first_layer + layer, particles, class, sampled, coarse }
+    }
+}
+
+impl ColumnValues {
+    fn of_brick(&self, brick: usize) -> FieldInBrick {
+        let values = KnownValues::of([self.low[brick], self.high[brick]]);
+        FieldInBrick { values, slope: self.slope(brick) }
     }
 }
 

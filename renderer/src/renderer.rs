@@ -18,7 +18,9 @@ use crate::stages::cast::Cast;
 use crate::stages::grid::Grid;
 use crate::stages::order::Order;
 use crate::stages::project::Project;
-use crate::stages::shared::{Bundles, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth};
+use crate::stages::shared::{
+    Bundles, Fields, FrameUniform, ParticleStore, TileUniform, TransferTables, pivot_depth,
+};
 use crate::stats::{Milliseconds, Stats};
 use crate::tiles::{Analysed, Job};
 use crate::transfer::TransferFunction;
@@ -31,7 +33,8 @@ pub type Progress<'a> = dyn FnMut(f32) -> ControlFlow<()> + 'a;
 /// - An unchanged scene costs nothing.
 /// - A new tolerance, transfer function or reference length chooses again what to sample, from the
 ///   same bounds of the quantity, and casts again.
-/// - A new kernel, or a new quantity, which is uploaded, is analysed and cast on the same grid.
+/// - A new kernel, or a new quantity, which is uploaded, is analysed and cast on the same grid. (Where two
+///   fields follow one, or one two, the grid is built again.)
 /// - A new camera projects and sorts again, without an upload.
 ///
 /// A picture of several tiles builds the grid of each tile anew whatever has changed.
@@ -79,6 +82,8 @@ pub(crate) struct Geometry {
     camera: Camera,
     size: [u32; 2],
     rate: f64,
+    /// Sums over crowded cells take their room with the grid.
+    fields: Fields,
 }
 
 /// What, beside the grid, a picture depends on.
@@ -104,7 +109,7 @@ impl Renderer {
     }
 
     fn with_options(gpu: Gpu, count_inside: bool) -> Result<Renderer, RenderError> {
-        let renderer = Renderer {
+        let mut renderer = Renderer {
             timing: Timing::new(&gpu)?,
             frame: Buffer::uniform::<FrameUniform>(&gpu, "frame"),
             tile: Buffer::uniform::<TileUniform>(&gpu, "tile"),
@@ -128,6 +133,11 @@ impl Renderer {
         };
         // Waits, since a device that is gone makes pipelines without a word.
         renderer.gpu.wait()?;
+        if !renderer.gpu.edits.is_empty() {
+            // Their texts may stand in shaders that are made when they are first used.
+            renderer.cast.prepare(&renderer.gpu, Kernel::default(), Fields::Two);
+            renderer.adapt.prepare(&renderer.gpu, Kernel::default(), Without::Nothing, Fields::Two);
+        }
         if let Some(text) = renderer.gpu.edits.unmade() {
             return Err(RenderError::Device(format!("no shader has the text to be edited: {text}")));
         }
@@ -251,7 +261,7 @@ impl Renderer {
     /// Brings to the device what all tiles share.
     pub(crate) fn begin<'a>(&mut self, scene: &'a Scene) -> Result<Job<'a>, RenderError> {
         let slices = Slices::new(&scene.camera, scene.height, scene.rate);
-        let limits = TileLimits::new(self.gpu.binding_limit(), self.gpu.memory);
+        let limits = TileLimits::new(self.gpu.binding_limit(), self.gpu.memory, scene.quantity.fields());
         let geometry = Geometry::of(scene);
         let resident = scene.particles.len() as u64 <= limits.particles;
         if resident && self.store.upload(&self.gpu, &scene.particles, &scene.quantity)? {
@@ -309,6 +319,7 @@ impl Geometry {
             camera: scene.camera,
             size: [scene.width, scene.height],
             rate: scene.rate,
+            fields: scene.quantity.fields(),
         }
     }
 }

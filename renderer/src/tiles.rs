@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use crate::selection;
 use crate::stages::cast::Work;
 use crate::stages::grid::Totals;
-use crate::stages::shared::{FrameUniform, TileUniform, pitch, spread};
+use crate::stages::shared::{Fields, FrameUniform, TileUniform, pitch, spread};
 use crate::stats::Milliseconds;
 
 /// What every tile of a picture shares.
@@ -35,7 +35,9 @@ pub(crate) struct Job<'a> {
 fn budget_of(job: &Job, tile: &Tile) -> Option<f32> {
     let sampling = &job.scene.sampling;
     let worthwhile = sampling.always_adaptive || analysis_may_pay(job.scene);
-    sampling.budget().filter(|_| tile.first_layer == 0 && worthwhile)
+    // The paper's bound knows one field.
+    let bounded = sampling.bound == Bound::Difference || job.scene.quantity.fields() == Fields::One;
+    sampling.budget().filter(|_| tile.first_layer == 0 && worthwhile && bounded)
 }
 
 /// Whether any particle is large enough, amid the run, for the analysis to pay. A support that hardly
@@ -211,6 +213,7 @@ impl Renderer {
         progress: &mut Progress,
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
+        self.cast.prepare(&self.gpu, job.scene.kernel, job.scene.quantity.fields());
         self.cast.reserve(&self.gpu, tile)?;
         let has_budget = budget_of(job, tile).is_some();
         if has_budget {
@@ -234,7 +237,7 @@ impl Renderer {
             self.bundles.write_chunk(&self.gpu, first..end, stride, &job.scene.sampling)?;
             let times = &mut picture.stats.milliseconds;
             match self.adapted {
-                false => self.cast_fully(job.scene.kernel, end - first, times)?,
+                false => self.cast_fully(job.scene, end - first, times)?,
                 true => self.cast_adaptively(job.scene, end - first, times)?,
             }
             self.pace[usize::from(self.adapted)].learn(end - first, begin.elapsed());
@@ -263,8 +266,9 @@ impl Renderer {
     fn prepare_analysis(&mut self, job: &Job, tile: &Tile, size: GridSize) -> Result<(), RenderError> {
         let capacity = size.cells.min(job.limits.filled_cells);
         self.recycles_bounds = size.cells > capacity;
-        self.adapt.reserve(&self.gpu, tile, capacity, job.scene.sampling.bound)?;
-        self.adapt.prepare(&self.gpu, job.scene.kernel, job.scene.sampling.without);
+        self.adapt.reserve(&self.gpu, tile, capacity, job.scene)?;
+        let Scene { kernel, sampling, quantity, .. } = job.scene;
+        self.adapt.prepare(&self.gpu, *kernel, sampling.without, quantity.fields());
         let known = self.analysed.take().filter(|known| job.only_tile && *known == Analysed::of(job));
         if known.is_none() {
             self.forget_bounds();
@@ -280,14 +284,14 @@ impl Renderer {
 
     fn cast_fully(
         &mut self,
-        kernel: Kernel,
+        scene: &Scene,
         bundles: u64,
         times: &mut Milliseconds,
     ) -> Result<(), RenderError> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let shared = self.shared_bindings();
         self.timing.pass(&mut encoder, "ray cast", |pass| {
-            self.cast.record_full(&self.gpu, pass, kernel, &shared, bundles);
+            self.cast.record_full(&self.gpu, pass, scene, &shared, bundles);
         });
         self.submit(encoder, times)
     }

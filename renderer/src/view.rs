@@ -12,6 +12,10 @@ use crate::transfer::{ControlPoint, TransferFunction};
 pub use annotations::{AnnotationsView, Ink};
 pub use select::{ClipBox, ClipPlane, Filter, SelectView};
 
+mod opacity;
+
+pub use opacity::OpacityView;
+
 /// The settings of a picture. Every key of the file is optional; unknown keys are errors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -101,6 +105,9 @@ pub struct QuantityView {
     /// The finite extremes over the frame where it is absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
+    /// Another field that decides the opacity; the same one where it is absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opacity: Option<OpacityView>,
 }
 
 /// How particles become a continuous field.
@@ -202,11 +209,7 @@ impl View {
             camera.validate()?;
         }
         self.image.validate()?;
-        if let Some([low, high]) = self.quantity.range {
-            check(low.is_finite() && high.is_finite() && low <= high, "quantity.range", || {
-                format!("[{low}, {high}] is not an ascending pair of finite numbers")
-            })?;
-        }
+        self.quantity.validate()?;
         if let Some(h) = self.particles.support_radius {
             check(positive(h), "particles.support_radius", || format!("{h} is not a positive length"))?;
         }
@@ -222,6 +225,21 @@ impl View {
         }
         TransferFunction::new(&self.transfer.points).map(drop)
     }
+}
+
+impl QuantityView {
+    fn validate(&self) -> Result<(), ViewError> {
+        check_range(self.range, "quantity.range")?;
+        self.opacity.as_ref().map_or(Ok(()), OpacityView::validate)
+    }
+}
+
+/// Checks that a range, where there is one, is one.
+fn check_range(range: Option<[f64; 2]>, key: &'static str) -> Result<(), ViewError> {
+    let Some([low, high]) = range else { return Ok(()) };
+    check(low.is_finite() && high.is_finite() && low <= high, key, || {
+        format!("[{low}, {high}] is not an ascending pair of finite numbers")
+    })
 }
 
 impl CameraView {

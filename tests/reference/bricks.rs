@@ -9,7 +9,7 @@ use crate::floor;
 use crate::grid::BUNDLE_SIDE;
 use crate::neighbours::Neighbours;
 use crate::particle::Particle;
-use crate::quantity;
+use crate::picture::{self, Values};
 use crate::scenes::Scene;
 use crate::setup::Setup;
 use crate::slices::CELL_SLABS;
@@ -60,15 +60,16 @@ impl Bricks {
         Bricks { setup, particles, neighbours }
     }
 
-    /// u at a point of the image, in pixels from its corner, and a real number of slices deep; `None`
-    /// where no particle reaches.
-    pub fn value(&self, [column, row]: [f64; 2], slice: f64) -> Option<f64> {
+    /// u of the colour and of the opacity, at a point of the image, in pixels from its corner, and a real number
+    /// of slices deep; `None` where no particle reaches.
+    pub fn values(&self, [column, row]: [f64; 2], slice: f64) -> Option<Values> {
         let camera = &self.setup.camera;
         let [nx, ny] = camera.slopes(column, row);
         let direction = camera.forward + nx * camera.right + ny * camera.up;
         let point = camera.eye + self.setup.slices.depth(slice) * direction;
-        let around = self.neighbours.around(point).map(|index| &self.particles[index]);
-        quantity::at(point, around, self.setup.kernel).map(|q| self.setup.range.normalise(q))
+        picture::values(&self.setup, point, || {
+            self.neighbours.around(point).map(|index| &self.particles[index])
+        })
     }
 
     /// The rays of a column that belong to the picture, by their numbers.
@@ -78,12 +79,12 @@ impl Bricks {
         (0..RAYS.len()).filter(|ray| inside(RAYS[*ray])).collect()
     }
 
-    /// u at a ray's full samples in a brick, `shift` slices behind where they are.
-    pub fn samples(&self, place: &Place, ray: usize, shift: f64) -> [Option<f64>; 4] {
+    /// Both at a ray's full samples in a brick, `shift` slices behind where they are.
+    pub fn samples(&self, place: &Place, ray: usize, shift: f64) -> [Option<Values>; 4] {
         let ([x, y], [right, down]) = (place.corner(), RAYS[ray]);
         let pixel = [x + right, y + down].map(|pixel| f64::from(pixel) + 0.5);
         let slab = |k: usize| f64::from(place.first_slab()) + k as f64 + 0.5;
-        std::array::from_fn(|k| self.value(pixel, slab(k) + shift))
+        std::array::from_fn(|k| self.values(pixel, slab(k) + shift))
     }
 
     /// Where a ray's full samples lie in a brick: to the right, up and back, from −1 to 1.
@@ -98,11 +99,11 @@ impl Bricks {
     }
 
     /// Premultiplied colour and opacity of one ray's samples in a brick.
-    pub fn response(&self, place: &Place, ray: usize, samples: &[Option<f64>; 4]) -> [f64; 4] {
+    pub fn response(&self, place: &Place, ray: usize, samples: &[Option<Values>; 4]) -> [f64; 4] {
         let mut passed = Ray::default();
-        for (slab, u) in (place.first_slab()..).zip(samples) {
-            if let Some(u) = *u {
-                passed.add(self.setup.transfer.at(u), self.path(place, ray, slab));
+        for (slab, values) in (place.first_slab()..).zip(samples) {
+            if let Some(values) = *values {
+                passed.add(picture::shade(&self.setup, values), self.path(place, ray, slab));
             }
         }
         passed.pixel()

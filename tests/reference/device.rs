@@ -35,9 +35,16 @@ pub fn particle_set(particles: &[Particle]) -> Arc<ParticleSet> {
     }))
 }
 
-/// The quantity of the same particles, as the renderer takes it.
+/// The quantity of the same particles, and that of their opacity where the view has one, as the renderer takes
+/// them.
 pub fn quantity(set: &ParticleSet, particles: &[Particle], view: &View) -> Arc<Quantity> {
-    Arc::new(Quantity::new(set, view.quantity.range, |row| particles[row].quantity))
+    let colour = Quantity::new(set, view.quantity.range, |row| particles[row].quantity);
+    Arc::new(match &view.quantity.opacity {
+        Some(opacity) => {
+            colour.with_opacity(&Quantity::new(set, opacity.range, |row| particles[row].opacity))
+        }
+        None => colour,
+    })
 }
 
 /// `scene` as the renderer takes it; nothing of it is known to the renderer from before.

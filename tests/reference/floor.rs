@@ -31,7 +31,8 @@ mod tests {
     fn raised(setup: &Setup, depth: f64, support_radius: f64) -> f64 {
         let camera = &setup.camera;
         let position = camera.eye + depth * (camera.forward + 0.1 * camera.right);
-        raise(&Particle { position, support_radius, volume: 1.0, quantity: 0.0 }, setup).support_radius
+        raise(&Particle { position, support_radius, volume: 1.0, quantity: 0.0, opacity: 0.0 }, setup)
+            .support_radius
     }
 
     /// 10 pixels high, σ = 90°, from 1 to 100.

@@ -1,6 +1,6 @@
 //! The guarantee of adaptive sampling: random cases for it, and whether it was kept.
 
-use renderer::{CameraView, ControlPoint, Kernel, Picture, Renderer, Without};
+use renderer::{CameraView, ControlPoint, Kernel, OpacityView, Picture, Renderer, Without};
 
 use crate::compare::{Comparison, compare};
 use crate::device::{prepare, render};
@@ -44,6 +44,26 @@ pub fn case(seed: u64) -> Scene {
     scene.view.sampling.relaxation = 0.0;
     limit_samples(&mut scene);
     scene.name = format!("seed {seed}, {}, tolerance {tolerance:.3e}", scene.name);
+    scene
+}
+
+/// `scene` with another field for the opacity, which is drawn from `seed`.
+pub fn with_opacity(seed: u64, mut scene: Scene) -> Scene {
+    let mut random = Random::new(seed ^ 0x5eed);
+    let origin = scene.particles[0].position;
+    let extent =
+        scene.particles.iter().map(|p| (p.position - origin).length()).fold(f64::MIN_POSITIVE, f64::max);
+    let wave = random.between(0.2, 6.0) / extent * random.direction();
+    let (noise, unit) = (random.pick(&[0.0, 0.0, 0.1, 1.0]), random.log_between(1e-6, 1e6));
+    let constant = random.unit() < 0.1;
+    for particle in &mut scene.particles {
+        let slow = if constant { 0.3 } else { wave.dot(particle.position - origin).sin() };
+        particle.opacity = unit * (slow + noise * random.between(-1.0, 1.0));
+    }
+    let cut = random.pick(&[0.0, 0.3, 0.9]);
+    let range = Some([unit * (cut - 1.0), unit]);
+    scene.view.quantity.opacity = Some(OpacityView { name: None, range });
+    scene.name += &format!(", opacity by another field, {seed}");
     scene
 }
 

@@ -67,7 +67,13 @@ mod tests {
         // The eye looks along −z from (0, 0, 4); the sixth sample is a hair inside the support.
         let sample = setup.slices.depth(5.5);
         let position = DVec3::new(0.0, 0.0, 4.0 - sample - 0.5);
-        let particle = Particle { position, support_radius: 0.5 * (1.0 + 1e-5), volume: 1.0, quantity: 0.5 };
+        let particle = Particle {
+            position,
+            support_radius: 0.5 * (1.0 + 1e-5),
+            volume: 1.0,
+            quantity: 0.5,
+            opacity: 0.0,
+        };
         let Margins { edge, step, depth_over_radius } = margins(&setup, &[particle], 0, 0);
         assert!((edge - 1e-5).abs() < 1e-9, "{edge}");
         assert!((step - 0.25).abs() < 1e-12, "{step}");

@@ -80,6 +80,7 @@ mod tests {
                     support_radius: random.log_between(1e-3, 3.0),
                     volume: 1.0,
                     quantity: 0.0,
+                    opacity: 0.0,
                 })
                 .collect();
             let neighbours = Neighbours::new(&particles);

@@ -1,5 +1,6 @@
 //! The full picture by brute force: every sample of every ray.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::composite::Ray;
@@ -70,14 +71,35 @@ fn trace(
         let slabs = 1 << level_of(i / CELL_SLABS);
         let s = |share: f64| setup.slices.depth(f64::from(i) + share * f64::from(slabs));
         let point = setup.camera.eye + s(setup.place_in_slab) * d;
-        let around = neighbours.around(point).map(|index| &particles[index]);
-        if let Some(q) = quantity::at(point, around, setup.kernel) {
+        let around = || neighbours.around(point).map(|index| &particles[index]);
+        if let Some(values) = values(setup, point, around) {
             let path = (s(1.0) - s(0.0)) * d.length();
-            ray.add(setup.transfer.at(setup.range.normalise(q)), path / setup.reference_length);
+            ray.add(shade(setup, values), path / setup.reference_length);
         }
         i += slabs;
     }
     ray.pixel()
+}
+
+/// u of the colour and u of the opacity, which are one where one field decides both.
+pub type Values = [f64; 2];
+
+/// Both at a point with particles `around` it; `None` where no particle reaches.
+pub fn values<'a, Around: Iterator<Item = &'a Particle>>(
+    setup: &Setup,
+    point: DVec3,
+    around: impl Fn() -> Around,
+) -> Option<Values> {
+    let u = setup.range.normalise(quantity::at(point, around(), setup.kernel)?);
+    let Some(range) = setup.opacity_range else { return Some([u, u]) };
+    let opacity = quantity::field_at(point, around(), setup.kernel, |particle| particle.opacity)?;
+    Some([u, range.normalise(opacity)])
+}
+
+/// Colour and opacity of a sample.
+pub fn shade(setup: &Setup, [colour, opacity]: Values) -> [f64; 4] {
+    let [r, g, b, _] = setup.transfer.at(colour);
+    [r, g, b, setup.transfer.at(opacity)[3]]
 }
 
 #[cfg(test)]
@@ -85,7 +107,6 @@ mod tests {
     use super::*;
     use crate::kernels::Kernel;
     use crate::scenes::{grey, plain_view};
-    use glam::DVec3;
     use renderer::View;
 
     /// Looks along −z from the origin, from depth 1 to 3.
@@ -99,7 +120,7 @@ mod tests {
     }
 
     fn particle(z: f64, support_radius: f64, quantity: f64) -> Particle {
-        Particle { position: DVec3::new(0.0, 0.0, z), support_radius, volume: 1.0, quantity }
+        Particle { position: DVec3::new(0.0, 0.0, z), support_radius, volume: 1.0, quantity, opacity: 0.0 }
     }
 
     #[test]

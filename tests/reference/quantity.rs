@@ -8,6 +8,16 @@ use crate::particle::Particle;
 /// Q(x) = Σ q_j w_j(x) / Σ w_j(x) with w_j(x) = V_j·W(|x − x_j|, h_j), over `particles` that hold at
 /// least all those with w_j(x) > 0; `None` where there is none of these.
 pub fn at<'a>(x: DVec3, particles: impl Iterator<Item = &'a Particle>, kernel: Kernel) -> Option<f64> {
+    field_at(x, particles, kernel, |particle| particle.quantity)
+}
+
+/// The same of any other field.
+pub fn field_at<'a>(
+    x: DVec3,
+    particles: impl Iterator<Item = &'a Particle>,
+    kernel: Kernel,
+    field: impl Fn(&Particle) -> f64,
+) -> Option<f64> {
     // Differences to the first quantity: a constant quantity stays exactly itself, which a step of
     // the transfer function at its value would show.
     let mut first = None;
@@ -15,8 +25,8 @@ pub fn at<'a>(x: DVec3, particles: impl Iterator<Item = &'a Particle>, kernel: K
     for particle in particles {
         let w = particle.volume * kernel.weight((x - particle.position).length(), particle.support_radius);
         if w > 0.0 {
-            let first = *first.get_or_insert(particle.quantity);
-            differences += (particle.quantity - first) * w;
+            let first = *first.get_or_insert(field(particle));
+            differences += (field(particle) - first) * w;
             weights += w;
         }
     }
@@ -57,7 +67,7 @@ mod tests {
     use super::*;
 
     fn particle(x: f64, quantity: f64, volume: f64) -> Particle {
-        Particle { position: DVec3::new(x, 0.0, 0.0), support_radius: 1.0, volume, quantity }
+        Particle { position: DVec3::new(x, 0.0, 0.0), support_radius: 1.0, volume, quantity, opacity: 0.0 }
     }
 
     #[test]

@@ -50,7 +50,7 @@ pub fn plain(seed: u64, width: u32, height: u32) -> Scene {
         .into_iter()
         .map(|(position, support_radius)| {
             let volume = random.between(0.5, 2.0);
-            Particle { position, support_radius, volume, quantity: field(position) }
+            Particle { position, support_radius, volume, quantity: field(position), opacity: 0.0 }
         })
         .collect();
     Scene { name: format!("plain {seed} {width}x{height}"), particles, view: plain_view(width, height) }
@@ -151,6 +151,7 @@ pub fn random(seed: u64, shape: Shape, size: [u32; 2], kernel: Kernel) -> Scene 
             support_radius,
             volume: random.between(0.5, 2.0),
             quantity: field.at(position) + field.noise * random.between(-1.0, 1.0),
+            opacity: 0.0,
         })
         .collect();
     let mut view = plain_view(size[0], size[1]);

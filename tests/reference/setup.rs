@@ -15,6 +15,8 @@ pub struct Setup {
     pub slices: Slices,
     pub kernel: Kernel,
     pub range: Range,
+    /// Of the field that decides the opacity, where that is another one.
+    pub opacity_range: Option<Range>,
     pub transfer: Transfer,
     pub reference_length: f64,
     /// Where in its slab, from front (0) to back (1), a sample is taken: ½ by the contract. Any
@@ -34,6 +36,10 @@ impl Setup {
             slices: Slices::new(&camera, view.sampling.rate),
             kernel: view.particles.kernel.into(),
             range: Range { min, max },
+            opacity_range: view.quantity.opacity.as_ref().map(|opacity| {
+                let [min, max] = opacity.range.expect("the twin takes the range as given");
+                Range { min, max }
+            }),
             transfer: Transfer::new(&view.transfer.points),
             reference_length: view
                 .transfer

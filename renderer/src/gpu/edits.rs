@@ -37,6 +37,10 @@ impl ShaderEdits {
         source
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.edits.is_empty()
+    }
+
     /// The first edit whose text no shader had.
     pub(crate) fn unmade(&self) -> Option<&str> {
         self.edits.iter().find(|edit| !edit.made.load(Ordering::Relaxed)).map(|edit| edit.from.as_str())

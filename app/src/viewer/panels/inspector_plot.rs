@@ -131,7 +131,7 @@ fn parts(cell: &CellDetail, column: usize, super_pixels: bool) -> Vec<(KnownValu
     }
     let Some(bricks) = &cell.bricks else { return Vec::new() };
     let class = |number: usize| brick_class(cell, column, number, super_pixels);
-    let part = |(number, brick): (usize, &Brick)| (brick.values, class(number));
+    let part = |(number, brick): (usize, &Brick)| (brick.opacity.values, class(number));
     bricks[column].iter().enumerate().map(part).collect()
 }
 

@@ -62,11 +62,19 @@ fn no_expansion() -> Expansion {
     return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR));
 }
 
-// Adds a particle (place relative to the cell, and 1/h²) of some weight, and quantity relative to the
-// cell's reference. Returns how many bricks it may reach.
-fn add_particle(
-    expansion: ptr<function, Expansion>, column: Column, ball: vec4<f32>, weight: f32, q: f32,
-) -> u32 {
+// What a particle adds to the sums of a column's bricks, whatever its quantity.
+struct Share {
+    weight: f32,
+    term: Taylor,
+    least: vec4<f32>,
+    // Bounds what the expansion leaves out.
+    left_out: vec4<f32>,
+    // Bricks that the particle may reach.
+    reached: vec4<bool>,
+}
+
+// The share of a particle (place relative to the cell, and 1/h²) of some weight.
+fn share_of(column: Column, ball: vec4<f32>, weight: f32) -> Share {
     let from_axis = ball.xyz - vec3(column.from_axis, 0.0);
     let inverse_radius = sqrt(ball.w);
     let x = from_axis.x - column.depth * column.direction.x;
@@ -83,15 +91,24 @@ fn add_particle(
     // of ρ².
     let span = clamp(1.0 + reach - rho, vec4(0.0), reach);
     let left_out = weight * (span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend);
-    (*expansion).weight = plus((*expansion).weight, weight, term);
-    (*expansion).charge = plus((*expansion).charge, weight * q, term);
-    (*expansion).least += weight * kernel_at(far + 1e-6);
-    (*expansion).rest += left_out;
-    (*expansion).rest_q += q * left_out;
-    (*expansion).rest_qq += q * q * left_out;
-    (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), reached);
-    (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), reached);
-    return u32(dot(select(vec4(0.0), vec4(1.0), reached), vec4(1.0)));
+    return Share(weight, term, weight * kernel_at(far + 1e-6), left_out, reached);
+}
+
+// Adds a particle's share, with its quantity relative to the cell's reference.
+fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
+    (*expansion).weight = plus((*expansion).weight, share.weight, share.term);
+    (*expansion).charge = plus((*expansion).charge, share.weight * q, share.term);
+    (*expansion).least += share.least;
+    (*expansion).rest += share.left_out;
+    (*expansion).rest_q += q * share.left_out;
+    (*expansion).rest_qq += q * q * share.left_out;
+    (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), share.reached);
+    (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), share.reached);
+}
+
+// How many bricks a particle may reach.
+fn bricks_reached(share: Share) -> u32 {
+    return u32(dot(select(vec4(0.0), vec4(1.0), share.reached), vec4(1.0)));
 }
 
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.

@@ -79,13 +79,16 @@ pub(crate) const COVERED: f32 = 2.0;
 mod tests {
     use super::*;
     use crate::stages::layout::check_layout;
-    use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
+    use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 
     const OFFERS_WGSL: &str = include_str!("offers.wgsl");
 
     #[test]
     fn entries_lie_as_the_shader_expects() {
-        let source = [FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL, HULL_WGSL, OFFERS_WGSL].concat();
+        let (samples, bricks) = (Fields::One.wgsl(), Fields::One.bounds_wgsl());
+        let source =
+            [FRAME_WGSL, KERNEL_WGSL, samples, BUNDLE_WGSL, TRANSFER_WGSL, HULL_WGSL, bricks, OFFERS_WGSL]
+                .concat();
         check_layout!(&source, "CellEntry", CellEntry, values, slot, class_index, sampled, coarse);
         check_layout!(&source, "BundleEntry", BundleEntry, end_layer, charged);
         check_layout!(&source, "ColumnValues", ColumnValues, low, high, middle, across, along);

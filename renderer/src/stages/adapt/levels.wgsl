@@ -12,7 +12,7 @@
 @group(0) @binding(13) var<storage, read_write> slots_taken: atomic<u32>;
 // For each column of a slot: values of its bricks, their offers, and the colour and opacity of their
 // middles together.
-@group(0) @binding(14) var<storage, read_write> bricks: array<ColumnValues>;
+@group(0) @binding(14) var<storage, read_write> bricks: array<FieldValues>;
 @group(0) @binding(15) var<storage, read_write> offers: array<Offers>;
 @group(0) @binding(16) var<storage, read_write> shows: array<vec4<f32>>;
 @group(0) @binding(17) var<storage, read_write> bundle_entries: array<BundleEntry>;

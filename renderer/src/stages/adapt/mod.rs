@@ -10,7 +10,9 @@ pub(crate) mod entries;
 
 use std::collections::BTreeMap;
 
-use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
+use super::shared::{
+    BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL,
+};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
 use crate::kernel::Kernel;
@@ -22,14 +24,14 @@ use paper::Paper;
 
 /// Buffers as `levels.wgsl` and `filing.wgsl` describe them.
 pub(crate) struct Adapt {
-    /// For each kernel, and for parts of the method to be left out where that was asked for.
-    pipelines: BTreeMap<(u32, Without), Pipeline>,
+    /// For each kernel; for parts of the method to be left out, and for two fields, where that was asked for.
+    pipelines: BTreeMap<Variant, Pipeline>,
     paper: Paper,
     /// For each cell of a tile.
     pub cell_values: Buffer,
     pub sampled: Buffer,
     slots_taken: Buffer,
-    /// For each column of a slot.
+    /// For each column of a slot, and field.
     pub bricks: Buffer,
     pub offers: Buffer,
     pub shows: Buffer,
@@ -41,6 +43,9 @@ pub(crate) struct Adapt {
     pub work: Buffer,
 }
 
+/// A kernel's code, what is left out, and how many fields there are.
+type Variant = (u32, Without, Fields);
+
 /// Columns of bricks of a cell.
 const COLUMNS: u64 = 16;
 /// Bytes of the values of a column.
@@ -49,7 +54,7 @@ pub(crate) const COLUMN_STRIDE: u64 = size_of::<entries::ColumnValues>() as u64;
 impl Adapt {
     pub(crate) fn new(gpu: &Gpu) -> Adapt {
         let complete = |kernel: Kernel| {
-            let variant = (kernel.code(), Without::Nothing);
+            let variant = (kernel.code(), Without::Nothing, Fields::One);
             (variant, pipeline(gpu, variant))
         };
         Adapt {
@@ -74,14 +79,14 @@ impl Adapt {
         gpu: &Gpu,
         tile: &Tile,
         filled: u64,
-        bound: Bound,
+        scene: &Scene,
     ) -> Result<(), RenderError> {
         self.cell_values.reserve(gpu, tile.cells())?;
         self.sampled.reserve(gpu, tile.cells())?;
         self.bundle_entries.reserve(gpu, tile.bundles())?;
-        match bound {
+        match scene.sampling.bound {
             Bound::Difference => {
-                self.bricks.reserve(gpu, filled * COLUMNS)?;
+                self.bricks.reserve(gpu, filled * COLUMNS * scene.quantity.fields().count())?;
                 self.offers.reserve(gpu, filled * COLUMNS)?;
             }
             Bound::Paper => self.paper.reserve(gpu, filled)?,
@@ -91,9 +96,9 @@ impl Adapt {
         self.parts.reserve(gpu, filled)
     }
 
-    /// Has the pipeline for this kernel and this part to be left out.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, without: Without) {
-        let variant = (kernel.code(), without);
+    /// Has the pipeline for this kernel, this part to be left out, and so many fields.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, without: Without, fields: Fields) {
+        let variant = (kernel.code(), without, fields);
         self.pipelines.entry(variant).or_insert_with(|| pipeline(gpu, variant));
     }
 
@@ -140,7 +145,8 @@ impl Adapt {
             &self.work,
         ]
         .map(Buffer::binding);
-        let pipeline = &self.pipelines[&(scene.kernel.code(), scene.sampling.without)];
+        let variant = (scene.kernel.code(), scene.sampling.without, scene.quantity.fields());
+        let pipeline = &self.pipelines[&variant];
         pipeline.dispatch(gpu, pass, &[shared, &own].concat(), bundles);
     }
 
@@ -161,19 +167,22 @@ impl Adapt {
     }
 }
 
-fn pipeline(gpu: &Gpu, (kernel, without): (u32, Without)) -> Pipeline {
+fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
     let left_out = |name, part| (name, f64::from(u8::from(without == part)));
     let description = PipelineDescription {
         label: "choose_levels",
         sources: &[
             FRAME_WGSL,
             KERNEL_WGSL,
+            fields.wgsl(),
             BUNDLE_WGSL,
             TRANSFER_WGSL,
             HULL_WGSL,
+            fields.bounds_wgsl(),
             include_str!("jets.wgsl"),
             include_str!("taylor.wgsl"),
             include_str!("bricks.wgsl"),
+            expansions_wgsl(fields),
             include_str!("walk.wgsl"),
             include_str!("values.wgsl"),
             include_str!("offers.wgsl"),
@@ -191,4 +200,12 @@ fn pipeline(gpu: &Gpu, (kernel, without): (u32, Without)) -> Pipeline {
         bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 10]].concat(),
     };
     Pipeline::new(gpu, &description)
+}
+
+/// How the particles of a cell are summed up.
+fn expansions_wgsl(fields: Fields) -> &'static str {
+    match fields {
+        Fields::One => include_str!("one_field.wgsl"),
+        Fields::Two => include_str!("two_fields.wgsl"),
+    }
 }

@@ -54,15 +54,14 @@ struct BrickHull {
     between: f32,
 }
 
-fn brick_hull(column: ColumnValues, brick: u32, paths: vec2<f32>) -> BrickHull {
-    let values = vec2(column.low[brick], column.high[brick]);
-    let shades = shades_over(values);
-    let hull = hull_of(values, shades.range, paths);
-    let slope = slope_charge(values, shades, unpack2x16float(column.along[brick]).y, paths.y);
+fn brick_hull(column: FieldValues, brick: u32, paths: vec2<f32>) -> BrickHull {
+    let seen = seen_in(column, brick);
+    let hull = hull_of(seen.values, seen.shades.range, paths);
+    let slope = slope_charge(seen.values, seen.shades, seen.off, paths.y);
     return BrickHull(hull, select(hull.width, slope, chunk.between == SLOPES));
 }
 
-fn hull_of_column(values: ColumnValues, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
+fn hull_of_column(values: FieldValues, paths: array<vec2<f32>, 4>, depth: f32) -> ColumnHull {
     let a = brick_hull(values, 0u, paths[0] * depth);
     let b = brick_hull(values, 1u, paths[1] * depth);
     let c = brick_hull(values, 2u, paths[2] * depth);

@@ -5,7 +5,7 @@
 // A place for each particle that is loaded: 16 of each cell.
 var<workgroup> balls: array<vec4<f32>, LANES>;
 // Weight, and quantity relative to the cell's reference.
-var<workgroup> loads: array<vec2<f32>, LANES>;
+var<workgroup> loads: array<Load, LANES>;
 // Extremes of each cell.
 var<workgroup> cell_low: array<atomic<u32>, GROUP_CELLS>;
 var<workgroup> cell_high: array<atomic<u32>, GROUP_CELLS>;
@@ -17,7 +17,7 @@ fn is_crowd(cell: Cell) -> bool {
     return cell.end - cell.first > CROWD;
 }
 
-// Values of the cells that are not known yet, from the quantities of their particles.
+// Values of the cells that are not known yet, from the quantities of their particles that decide the opacity.
 fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> vec2<f32> {
     // The bits of floats that are not negative are in their order.
     if column == 0u {
@@ -30,9 +30,9 @@ fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> vec2<f3
     var high = 0.0;
     for (var place = cell.first + column; place < end; place += COLUMNS) {
         let quantity = quantities[pairs[place]];
-        let u = clamp(quantity, 0.0, 1.0);
-        low = select(min(low, u), low, quantity > REJECTED);
-        high = select(max(high, u), high, quantity > REJECTED);
+        let u = for_opacity(in_range(quantity));
+        low = select(min(low, u), low, is_rejected(quantity));
+        high = select(max(high, u), high, is_rejected(quantity));
     }
     atomicMin(&cell_low[number], bitcast<u32>(low));
     atomicMax(&cell_high[number], bitcast<u32>(high));
@@ -47,39 +47,38 @@ fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> vec2<f3
 //
 // Their quantities are taken relative to a value of the cell that does not depend on their order.
 fn expand(
-    cell: Cell, reference: f32, wanted: bool, most: u32, axis: vec2<f32>, column: Column, lane: u32,
-) -> ColumnValues {
+    cell: Cell, reference: Quantity, wanted: bool, most: u32, axis: vec2<f32>, column: Column, lane: u32,
+) -> FieldValues {
     let depths = layer_depth[tile.first_layer + cell.layer];
     let middle = vec3(depths.x * axis, depths.y);
     let end = select(cell.first, cell.end, wanted);
     let group_lane = lane / COLUMNS * COLUMNS;
-    var expansion = no_expansion();
+    var expansion = no_expansions();
     var evaluations = 0u;
     for (var base = 0u; base < most; base += COLUMNS) {
         let place = cell.first + base + lane % COLUMNS;
         if place < end {
             let particle = particle_in_cell(place, middle, depths.x, reference);
             balls[lane] = particle.ball;
-            loads[lane] = vec2(particle.weight, particle.quantity);
+            loads[lane] = Load(particle.weight, particle.quantity);
         }
         workgroupBarrier();
         let loaded = min(COLUMNS, max(end, cell.first + base) - (cell.first + base));
         for (var i = 0u; i < loaded; i += 1u) {
             let particle = group_lane + i;
-            let load = loads[particle];
-            evaluations += add_particle(&expansion, column, balls[particle], load.x, load.y);
+            evaluations += add_particle(&expansion, column, balls[particle], loads[particle]);
         }
         workgroupBarrier();
     }
     add_to_tally(0u, evaluations);
-    return values_of(expansion, column, reference);
+    return field_values_of(expansion, column, reference);
 }
 
 // Values of the lane's bricks: kept, or found out and kept; with the slot, + 2. Those of a cell that is
 // transparent as a whole are not looked for: slot 1.
 fn values_in_cell(
     cell: Cell, axis: vec2<f32>, column: Column, lane: u32, slot: ptr<function, u32>,
-) -> ColumnValues {
+) -> FieldValues {
     let number = lane / COLUMNS;
     let leader = lane % COLUMNS == 0u;
     var entry = cell_values[cell.cell];
@@ -101,9 +100,10 @@ fn values_in_cell(
         slots[number] = atomicAdd(&slots_taken, 1u);
     }
     let most = workgroupUniformLoad(&most_particles);
-    var values = no_values();
+    var values = no_field_values();
     for (var once = 0u; once < min(most, 1u); once += 1u) {
-        let found = expand(cell, entry.values.x, wanted, most, axis, column, lane);
+        let reference = reference_in(cell, entry.values.x);
+        let found = expand(cell, reference, wanted, most, axis, column, lane);
         if wanted {
             values = found;
             entry.slot = slots[number] + 2u;

@@ -5,9 +5,13 @@
 
 use crate::error::RenderError;
 use crate::gpu::{Buffer, Gpu};
+use crate::stages::shared::Fields;
 
 /// References of a portion; a cell with more is crowded (`CROWD` of `frame.wgsl`).
 pub(crate) const CROWD: u32 = 2048;
+
+/// Bytes of one sum for each sample of a cell.
+const SUMS_BYTES: u64 = 64 * 16 * 4;
 
 /// Buffers as `portions.wgsl` describes them.
 pub(crate) struct Crowds {
@@ -20,16 +24,21 @@ impl Crowds {
     pub(super) fn new(gpu: &Gpu) -> Crowds {
         Crowds {
             portions: Buffer::storage(gpu, "portions of crowded cells", 8),
-            sums: Buffer::storage(gpu, "sums over portions", 64 * 128),
+            sums: Buffer::storage(gpu, "sums over portions", SUMS_BYTES),
             count: 0,
         }
     }
 
     /// Takes `portions`, the cell and the first reference of each, in ascending order.
-    pub(crate) fn write(&mut self, gpu: &Gpu, portions: &[[u32; 2]]) -> Result<(), RenderError> {
+    pub(crate) fn write(
+        &mut self,
+        gpu: &Gpu,
+        portions: &[[u32; 2]],
+        fields: Fields,
+    ) -> Result<(), RenderError> {
         self.count = portions.len() as u64;
         self.portions.write(gpu, portions)?;
-        self.sums.reserve(gpu, self.count)
+        self.sums.reserve(gpu, self.count * (1 + fields.count()))
     }
 
     /// Number of portions.

@@ -16,7 +16,7 @@ fn sum_portions(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let sums =
         sum_particles(cell % tile.layers, first, end, reference, axis, ray_from_axis(lane), ALL_BRICKS, lane);
     portion_sums[number * LANES + lane] =
-        array(sums.w0, sums.w1, sums.w2, sums.w3, sums.q0, sums.q1, sums.q2, sums.q3);
+        PortionSums(sums.w0, sums.w1, sums.w2, sums.w3, sums.q0, sums.q1, sums.q2, sums.q3);
     workgroupBarrier();
     if lane == 0u {
         settle_tally(0u, EVALUATIONS);

@@ -6,28 +6,27 @@
 //! bundle are put together.
 
 mod crowds;
+mod samplers;
+
+use std::collections::BTreeMap;
 
 pub(crate) use crowds::{CROWD, Crowds, portions};
 
 use super::adapt::Adapt;
-use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
+use super::shared::Fields;
 use crate::error::RenderError;
-use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+use crate::gpu::{Buffer, Gpu, Pipeline};
 use crate::kernel::Kernel;
 use crate::plan::Tile;
 use crate::sampling::Bound;
 use crate::scene::Scene;
-
-const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
-const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
-const WORK_WGSL: &str = include_str!("work.wgsl");
+use samplers::{Samplers, Shaders};
 
 pub(crate) struct Cast {
-    /// One a kernel.
-    portions: Vec<Pipeline>,
-    full: Vec<Pipeline>,
-    wholes: Vec<Pipeline>,
-    parts: Vec<Pipeline>,
+    shaders: Shaders,
+    /// For each kernel; for two fields once that was asked for.
+    samplers: BTreeMap<(u32, Fields), Samplers>,
+    /// One a kernel. The paper's bound, whose cells it samples, knows one field.
     coarse: Vec<Pipeline>,
     composite: Pipeline,
     pub crowds: Crowds,
@@ -48,59 +47,14 @@ pub(crate) struct Work {
 impl Cast {
     /// `count_inside`: count evaluations with a weight above zero too, which costs time.
     pub(crate) fn new(gpu: &Gpu, count_inside: bool) -> Cast {
-        use Access::{Read, Write};
-        let pipeline = |kernel: Kernel, entry_point, sources: &[&str], bindings: &[Access]| {
-            let kernel = ("KERNEL", f64::from(kernel.code()));
-            let counting = ("COUNT_INSIDE", f64::from(u8::from(count_inside)));
-            let some_shown = ("SOME_SHOWN", f64::from(u8::from(sources.contains(&WORK_WGSL))));
-            let constants = [kernel, counting, some_shown];
-            let used = if sources.contains(&SAMPLES_WGSL) { 3 } else { 1 };
-            Pipeline::new(
-                gpu,
-                &PipelineDescription {
-                    label: entry_point,
-                    sources: &[&[FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL], sources].concat(),
-                    entry_point,
-                    constants: &constants[..used],
-                    bindings: &[&BUNDLE_BINDINGS, bindings].concat(),
-                },
-            )
-        };
-        let pipelines = |entry_point, sources: &[&str], bindings: &[Access]| {
-            Kernel::ALL.iter().map(|&kernel| pipeline(kernel, entry_point, sources, bindings)).collect()
-        };
+        let shaders = Shaders { count_inside };
+        let one_field =
+            |kernel: Kernel| ((kernel.code(), Fields::One), shaders.samplers(gpu, kernel, Fields::One));
         Cast {
-            portions: pipelines(
-                "sum_portions",
-                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
-                &[Read, Write],
-            ),
-            full: pipelines(
-                "cast_rays",
-                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("full.wgsl")],
-                &[Read, Write, Write],
-            ),
-            wholes: pipelines(
-                "sample_wholes",
-                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("whole.wgsl")],
-                &[Read, Write, Write, Read, Read, Read, Read, Read],
-            ),
-            parts: pipelines(
-                "sample_parts",
-                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("parts.wgsl")],
-                &[Read, Write, Write, Read, Read, Read, Read, Read],
-            ),
-            coarse: pipelines(
-                "sample_coarsely",
-                &[HULL_WGSL, WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, include_str!("coarse.wgsl")],
-                &[Read, Write, Write, Read, Read, Read, Read, Read],
-            ),
-            composite: pipeline(
-                Kernel::default(),
-                "composite_cells",
-                &[HULL_WGSL, include_str!("composite.wgsl")],
-                &[Write, Read, Read, Read, Read, Read],
-            ),
+            samplers: Kernel::ALL.map(one_field).into(),
+            coarse: Kernel::ALL.map(|kernel| shaders.coarse(gpu, kernel)).into(),
+            composite: shaders.composite(gpu),
+            shaders,
             crowds: Crowds::new(gpu),
             pixels: Buffer::storage(gpu, "pixels", 16),
             segments: Buffer::storage(gpu, "segments of rays", 16),
@@ -117,32 +71,44 @@ impl Cast {
         self.segments.reserve(gpu, (work.wholes + work.parts) * 64)
     }
 
+    /// Has the pipelines for this kernel and so many fields.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, fields: Fields) {
+        let shaders = &self.shaders;
+        self.samplers.entry((kernel.code(), fields)).or_insert_with(|| shaders.samplers(gpu, kernel, fields));
+    }
+
+    /// Those for `scene`, which are prepared.
+    fn samplers(&self, scene: &Scene) -> &Samplers {
+        &self.samplers[&(scene.kernel.code(), scene.quantity.fields())]
+    }
+
     /// Records the sums over `portions` portions of crowded cells. `shared`: resources for
-    /// [`BUNDLE_BINDINGS`], whose turns are portions here.
+    /// [`BUNDLE_BINDINGS`](super::shared::BUNDLE_BINDINGS), whose turns are portions here.
     pub(crate) fn record_portions(
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
-        kernel: Kernel,
+        scene: &Scene,
         shared: &[wgpu::BindingResource],
         portions: u64,
     ) {
         let resources = with(shared, &self.crowds.buffers());
-        self.portions[kernel.code() as usize].dispatch(gpu, pass, &resources, portions);
+        self.samplers(scene).portions.dispatch(gpu, pass, &resources, portions);
     }
 
-    /// Records full sampling of `bundles` bundles. `shared`: resources for [`BUNDLE_BINDINGS`].
+    /// Records full sampling of `bundles` bundles. `shared`: resources for
+    /// [`BUNDLE_BINDINGS`](super::shared::BUNDLE_BINDINGS).
     pub(crate) fn record_full(
         &self,
         gpu: &Gpu,
         pass: &mut wgpu::ComputePass,
-        kernel: Kernel,
+        scene: &Scene,
         shared: &[wgpu::BindingResource],
         bundles: u64,
     ) {
         let [portions, sums] = self.crowds.buffers();
         let resources = with(shared, &[portions, sums, &self.pixels]);
-        self.full[kernel.code() as usize].dispatch(gpu, pass, &resources, bundles);
+        self.samplers(scene).full.dispatch(gpu, pass, &resources, bundles);
     }
 
     /// Records the sampling of what `adapt` left of `bundles` bundles, and puts their cells together.
@@ -157,11 +123,11 @@ impl Cast {
         work: Work,
         bundles: u64,
     ) {
-        let kernel = scene.kernel.code() as usize;
+        let samplers = self.samplers(scene);
         // What is not sampled as a whole is bricks, or all of a cell at a coarser level.
         let parts = match scene.sampling.bound {
-            Bound::Difference => &self.parts,
-            Bound::Paper => &self.coarse,
+            Bound::Difference => &samplers.parts,
+            Bound::Paper => &self.coarse[scene.kernel.code() as usize],
         };
         let (segments, values) = (&self.segments, &adapt.cell_values);
         let [portions, sums] = self.crowds.buffers();
@@ -169,8 +135,8 @@ impl Cast {
             let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
             pipeline.dispatch(gpu, pass, &with(shared, &own), count);
         };
-        sample(&self.wholes[kernel], pass, &adapt.wholes, work.wholes);
-        sample(&parts[kernel], pass, &adapt.parts, work.parts);
+        sample(&samplers.wholes, pass, &adapt.wholes, work.wholes);
+        sample(parts, pass, &adapt.parts, work.parts);
         let cells = with(
             shared,
             &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],

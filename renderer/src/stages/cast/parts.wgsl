@@ -20,7 +20,7 @@ struct Unit {
     from_axis: vec2<f32>,
     depths: vec4<f32>,
     weights: vec4<f32>,
-    charges: vec4<f32>,
+    charges: Charges,
 }
 
 fn unit_of(number: u32, units: u32) -> Unit {
@@ -29,25 +29,25 @@ fn unit_of(number: u32, units: u32) -> Unit {
     let count = select(0u, 1u, number < units);
     let layer = brick / COLUMNS;
     let depths = select(frame.sample_offset[min(layer, 3u)], level_2_offsets(), layer == LEVEL_2);
-    return Unit(count, ray, layer, ray_from_axis(ray), depths, vec4(0.0), vec4(0.0));
+    return Unit(count, ray, layer, ray_from_axis(ray), depths, vec4(0.0), Charges());
 }
 
 // Adds a particle to a unit; returns the evaluations that it took.
-fn add_to_unit(unit: ptr<function, Unit>, axis: vec2<f32>, ball: vec4<f32>, charge: vec2<f32>) -> u32 {
+fn add_to_unit(unit: ptr<function, Unit>, axis: vec2<f32>, ball: vec4<f32>, load: Load) -> u32 {
     let direction = vec3(axis + (*unit).from_axis, 1.0);
     let arc = arc_through(ball, (*unit).from_axis, direction, dot(direction, direction));
     if arc.top <= 0.0 || !meets((*unit).depths, arc) {
         return 0u;
     }
     let k = kernel_on((*unit).depths, arc);
-    (*unit).weights += charge.x * k;
-    (*unit).charges += charge.y * k;
+    (*unit).weights += load.x * k;
+    (*unit).charges += charges_of(load, k);
     return 4u;
 }
 
 // Composites a unit's samples: into the brick that they are in, or each into its own, of those that are
 // sampled so.
-fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32, coarse: vec2<u32>) {
+fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coarse: vec2<u32>) {
     let scale = depth * length(vec3(axis + unit.from_axis, 1.0)) * frame.path_scale;
     if unit.count == 0u {
         return;
@@ -63,7 +63,8 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: f32, depth: f32, coarse: 
     for (var i = 0u; i < levels; i += 1u) {
         if is_chosen(coarse, unit.ray / 4u, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
-            strands[4u * unit.ray + i] = composite(vec4(0.0), unit.weights[i], unit.charges[i], reference, path);
+            let charge = charge_at(unit.charges, i);
+            strands[4u * unit.ray + i] = composite(vec4(0.0), unit.weights[i], charge, reference, path);
         }
     }
 }
@@ -109,9 +110,9 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     for (var ray = 4u * column; ray < 4u * column + rays; ray += 1u) {
         let scale = depth * length(vec3(axis + ray_from_axis(ray), 1.0)) * frame.path_scale;
-        let quantities = quantities_on_slope(cell, ray, brick_layer);
+        let charges = quantities_on_slope(cell, ray, brick_layer);
         let paths = frame.slab_depth[brick_layer] * scale;
-        strands[4u * ray + brick_layer] = composite_four(vec4(0.0), vec4(1.0), quantities, 0.0, paths);
+        strands[4u * ray + brick_layer] = composite_four(vec4(0.0), vec4(1.0), charges, Quantity(), paths);
     }
 }
 

@@ -2,8 +2,14 @@
 
 // Cell, and first reference, in ascending order.
 @group(0) @binding(12) var<storage, read> portions: array<vec2<u32>>;
-// Of each ray: the weights at its 16 samples, and those times the quantity; 8 for each of 64 rays.
-@group(0) @binding(13) var<storage, read_write> portion_sums: array<array<vec4<f32>, 8>>;
+// Of each of 64 rays.
+@group(0) @binding(13) var<storage, read_write> portion_sums: array<PortionSums>;
+
+// The weights at a ray's 16 samples, and those times the quantity.
+struct PortionSums {
+    w0: vec4<f32>, w1: vec4<f32>, w2: vec4<f32>, w3: vec4<f32>,
+    q0: Charges, q1: Charges, q2: Charges, q3: Charges,
+}
 
 // Portions of the cell with the given references: the first, and the one after the last. None where the
 // cell is not crowded.

@@ -11,24 +11,24 @@ override SOME_SHOWN: bool = false;
 // Position relative to the cell, and 1/h².
 var<workgroup> balls: array<vec4<f32>, LANES>;
 // Weight, and weight times quantity.
-var<workgroup> loads: array<vec2<f32>, LANES>;
+var<workgroup> loads: array<Load, LANES>;
 // Colour and opacity of bricks that are shown unsampled, where some are: brick b of column c is 16b + c.
 var<workgroup> middles: array<vec4<f32>, LANES>;
 
 // The quantity at the lane's samples in bricks that follow their slope, where some do.
-var<private> on_slope: array<vec4<f32>, 4>;
+var<private> on_slope: array<Charges, 4>;
 
 // What the quantities of a cell are relative to: some particle's, but never an outlier's, against which
 // the others would vanish.
-fn reference_of(first: u32) -> f32 {
-    return clamp(quantities[pairs[first]], 0.0, 1.0);
+fn reference_of(first: u32) -> Quantity {
+    return in_range(quantities[pairs[first]]);
 }
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory.
-fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: f32) {
+fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: Quantity) {
     let particle = particle_in_cell(place, middle, depth, reference);
     balls[lane] = particle.ball;
-    loads[lane] = vec2(particle.weight, particle.weight * particle.quantity);
+    loads[lane] = Load(particle.weight, particle.weight * particle.quantity);
 }
 
 // A ray's way through a ball: along it, 1 − ρ² is a parabola.
@@ -63,11 +63,11 @@ fn kernel_on(depths: vec4<f32>, arc: Arc) -> vec4<f32> {
 
 // One more sample behind the others: I += T·(1 − t)·c, T *= t (contract, section 1). `opacity` is
 // 1 − T of the cell's samples so far: kept instead of T, it loses nothing where it is tiny.
-fn composite(cell: vec4<f32>, weight: f32, quantity: f32, reference: f32, path: f32) -> vec4<f32> {
+fn composite(cell: vec4<f32>, weight: f32, charge: Quantity, reference: Quantity, path: f32) -> vec4<f32> {
     if weight <= 0.0 {
         return cell;
     }
-    let sample = transfer_at(clamp(reference + quantity / weight, 0.0, 1.0));
+    let sample = shade_of(reference + charge / weight);
     let share = (1.0 - cell.w) * path_opacity(sample.w, path);
     return cell + share * vec4(sample.rgb, 1.0);
 }
@@ -75,14 +75,14 @@ fn composite(cell: vec4<f32>, weight: f32, quantity: f32, reference: f32, path: 
 fn composite_four(
     cell: vec4<f32>,
     weights: vec4<f32>,
-    quantities: vec4<f32>,
-    reference: f32,
+    charges: Charges,
+    reference: Quantity,
     paths: vec4<f32>,
 ) -> vec4<f32> {
-    var result = composite(cell, weights.x, quantities.x, reference, paths.x);
-    result = composite(result, weights.y, quantities.y, reference, paths.y);
-    result = composite(result, weights.z, quantities.z, reference, paths.z);
-    return composite(result, weights.w, quantities.w, reference, paths.w);
+    var result = composite(cell, weights.x, charge_at(charges, 0u), reference, paths.x);
+    result = composite(result, weights.y, charge_at(charges, 1u), reference, paths.y);
+    result = composite(result, weights.z, charge_at(charges, 2u), reference, paths.z);
+    return composite(result, weights.w, charge_at(charges, 3u), reference, paths.w);
 }
 
 // All four bricks of a ray, sampled at every slice.
@@ -92,17 +92,17 @@ const ALL_BRICKS: u32 = 15u;
 // rather than arrays: an indexed array would live in memory.
 struct Sums {
     w0: vec4<f32>, w1: vec4<f32>, w2: vec4<f32>, w3: vec4<f32>,
-    q0: vec4<f32>, q1: vec4<f32>, q2: vec4<f32>, q3: vec4<f32>,
+    q0: Charges, q1: Charges, q2: Charges, q3: Charges,
     // At the four samples of level 2.
     w_coarse: vec4<f32>,
-    q_coarse: vec4<f32>,
+    q_coarse: Charges,
 }
 
 // Sums over the references from `first` to `end` of a cell of `layer`. `axis`: slope of the bundle's;
 // `from_axis`: distance in slope of the ray from it. `sampled`: bits of the ray's four bricks that are
 // sampled at every slice, and from bit 4 on of those between that and shown (Chunk).
 fn sum_particles(
-    layer: u32, first: u32, end: u32, reference: f32, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
+    layer: u32, first: u32, end: u32, reference: Quantity, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
 ) -> Sums {
     let depths = layer_depth[tile.first_layer + layer];
     let middle = vec3(depths.x * axis, depths.y);
@@ -110,8 +110,8 @@ fn sum_particles(
     let direction_squared = dot(direction, direction);
     let at = frame.sample_offset;
     var w0 = vec4(0.0); var w1 = vec4(0.0); var w2 = vec4(0.0); var w3 = vec4(0.0);
-    var q0 = vec4(0.0); var q1 = vec4(0.0); var q2 = vec4(0.0); var q3 = vec4(0.0);
-    var w_coarse = vec4(0.0); var q_coarse = vec4(0.0);
+    var q0 = Charges(); var q1 = Charges(); var q2 = Charges(); var q3 = Charges();
+    var w_coarse = vec4(0.0); var q_coarse = Charges();
     // Evaluations done, and those with a weight above zero.
     var count = vec2(0u);
     // A loop, not a condition: software adapters go through conditions whether they hold or not.
@@ -127,13 +127,13 @@ fn sum_particles(
             if arc.top <= 0.0 {
                 continue;
             }
-            let charge = loads[i];
-            if is_sampled(sampled, 0u) { count += add_samples(at[0], arc, charge, &w0, &q0); }
-            if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, charge, &w1, &q1); }
-            if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, charge, &w2, &q2); }
-            if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, charge, &w3, &q3); }
+            let load = loads[i];
+            if is_sampled(sampled, 0u) { count += add_samples(at[0], arc, load, &w0, &q0); }
+            if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, load, &w1, &q1); }
+            if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, load, &w2, &q2); }
+            if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, load, &w3, &q3); }
             for (var once = 0u; once < level_2; once += 1u) {
-                count += add_samples(level_2_offsets(), arc, charge, &w_coarse, &q_coarse);
+                count += add_samples(level_2_offsets(), arc, load, &w_coarse, &q_coarse);
             }
         }
         workgroupBarrier();
@@ -154,8 +154,8 @@ fn cast_cell(
     var sums = sum_particles(layer, first, walk_end, reference, axis, from_axis, sampled, lane);
     for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
         let more = portion_sums[portion * LANES + lane];
-        sums.w0 += more[0]; sums.w1 += more[1]; sums.w2 += more[2]; sums.w3 += more[3];
-        sums.q0 += more[4]; sums.q1 += more[5]; sums.q2 += more[6]; sums.q3 += more[7];
+        sums.w0 += more.w0; sums.w1 += more.w1; sums.w2 += more.w2; sums.w3 += more.w3;
+        sums.q0 += more.q0; sums.q1 += more.q1; sums.q2 += more.q2; sums.q3 += more.q3;
     }
 
     let path = frame.slab_depth;
@@ -174,23 +174,23 @@ fn cast_cell(
 fn add_samples(
     depths: vec4<f32>,
     arc: Arc,
-    charge: vec2<f32>,
+    load: Load,
     weights: ptr<function, vec4<f32>>,
-    quantities: ptr<function, vec4<f32>>,
+    charges: ptr<function, Charges>,
 ) -> vec2<u32> {
     if !meets(depths, arc) {
         return vec2(0u);
     }
     let k = kernel_on(depths, arc);
-    *weights += charge.x * k;
-    *quantities += charge.y * k;
+    *weights += load.x * k;
+    *charges += charges_of(load, k);
     return vec2(4u, select(0u, positive(k), COUNT_INSIDE));
 }
 
 // Sums at the samples of level 2, and bits of the bricks for which they or their slopes stand.
 struct Coarse {
     weights: vec4<f32>,
-    quantities: vec4<f32>,
+    charges: Charges,
     bricks: u32,
 }
 
@@ -203,8 +203,8 @@ fn pass_brick(
     cell: vec4<f32>,
     brick_layer: u32,
     weights: vec4<f32>,
-    quantities: vec4<f32>,
-    reference: f32,
+    charges: Charges,
+    reference: Quantity,
     paths: vec4<f32>,
     sampled: u32,
     coarse: Coarse,
@@ -214,12 +214,13 @@ fn pass_brick(
     let by_slope = SOME_SHOWN && is_between && chunk.between == SLOPES;
     if by_slope || is_sampled(sampled, brick_layer) {
         let w = select(weights, vec4(1.0), by_slope);
-        let q = select(quantities, on_slope[brick_layer] - reference, by_slope);
+        let q = select_charges(charges, relative_to(on_slope[brick_layer], reference), by_slope);
         return composite_four(cell, w, q, reference, paths);
     }
     if is_between {
         let weight = coarse.weights[brick_layer];
-        return composite(cell, weight, coarse.quantities[brick_layer], reference, dot(paths, vec4(1.0)));
+        let charge = charge_at(coarse.charges, brick_layer);
+        return composite(cell, weight, charge, reference, dot(paths, vec4(1.0)));
     }
     return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];
 }

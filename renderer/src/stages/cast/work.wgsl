@@ -12,7 +12,7 @@ struct Work {
 // Cell, and its place among the sampled ones.
 @group(0) @binding(16) var<storage, read> tasks: array<vec2<u32>>;
 @group(0) @binding(17) var<storage, read> cell_values: array<CellEntry>;
-@group(0) @binding(18) var<storage, read> bricks: array<ColumnValues>;
+@group(0) @binding(18) var<storage, read> bricks: array<FieldValues>;
 // Costs of a column's bricks (adapt/offers.wgsl), negative where no light comes from.
 @group(0) @binding(19) var<storage, read> offers: array<array<vec4<f32>, 2>>;
 
@@ -22,9 +22,9 @@ fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
 }
 
 // The quantity at a ray's samples in a brick that follows its slope. `ray`: a lane of the bundle.
-fn quantities_on_slope(cell: u32, ray: u32, brick_layer: u32) -> vec4<f32> {
+fn quantities_on_slope(cell: u32, ray: u32, brick_layer: u32) -> Charges {
     let place = (max(cell_values[cell].slot, 2u) - 2u) * COLUMNS + ray / 4u;
-    return values_on_slope(bricks[place], brick_layer, ray % 4u);
+    return charges_on_slope(bricks[place], brick_layer, ray % 4u);
 }
 
 // What stands for a brick that is not sampled.
@@ -32,7 +32,7 @@ fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<
     let place = (max(cell_values[cell].slot, 2u) - 2u) * COLUMNS + column;
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
-    let values = vec2(bricks[place].low[brick_layer], bricks[place].high[brick_layer]);
-    let hull = hull_of(values, shades_over(values).range, paths);
+    let seen = seen_in(bricks[place], brick_layer);
+    let hull = hull_of(seen.values, seen.shades.range, paths);
     return select(vec4(0.0), hull.middle, offers[place][0][brick_layer] >= 0.0);
 }

@@ -51,19 +51,19 @@ fn references_at(place: vec3<f32>) -> vec2<u32> {
 fn add_sample(ray: ptr<function, Ray>, place: vec3<f32>, path: f32) -> u32 {
     let near = references_at(place);
     var weight = 0.0;
-    var charge = 0.0;
+    var charge = Quantity();
     for (var i = near.x; i < near.y; i += 1u) {
         let particle = references[i];
         let ball = projected[particle];
         let from_middle = (place - ball.xyz) / ball.w;
-        let is_left_out = ball.w <= 0.0 || quantities[particle] > REJECTED;
-        let x = select(max(1.0 - dot(from_middle, from_middle), 0.0), 0.0, is_left_out);
+        let left_out = ball.w <= 0.0 || is_rejected(quantities[particle]);
+        let x = select(max(1.0 - dot(from_middle, from_middle), 0.0), 0.0, left_out);
         let w = weights[particle] * kernel(vec4(x)).x;
         weight += w;
-        charge += select(w * quantities[particle], 0.0, is_left_out);
+        charge += select(w * quantities[particle], Quantity(), left_out);
     }
     if weight > 0.0 {
-        let sample = transfer_at(clamp(charge / weight, 0.0, 1.0));
+        let sample = shade_of(charge / weight);
         let opacity = path_opacity(sample.w, path);
         (*ray).colour += (*ray).transparency * opacity * sample.rgb;
         (*ray).transparency *= 1.0 - opacity;

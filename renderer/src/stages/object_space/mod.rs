@@ -5,10 +5,10 @@ mod hash_grid;
 
 use bytemuck::{Pod, Zeroable};
 
-use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
+use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
-use crate::kernel::Kernel;
+use crate::scene::Scene;
 pub(crate) use hash_grid::HashGrid;
 
 /// `HashGrid` of `cast.wgsl`.
@@ -28,22 +28,24 @@ pub(crate) struct ObjectSpace {
     references: Buffer,
 }
 
-const SOURCES: [&str; 5] = [FRAME_WGSL, KERNEL_WGSL, BUNDLE_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")];
+fn sources(fields: Fields) -> [&'static str; 6] {
+    [FRAME_WGSL, KERNEL_WGSL, fields.wgsl(), BUNDLE_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")]
+}
 
 impl ObjectSpace {
     /// Brings `grid`, whose lengths are the device's, there. `pivot`: of positions in view space.
     pub(crate) fn new(
         gpu: &Gpu,
-        kernel: Kernel,
+        scene: &Scene,
         grid: &HashGrid,
         pivot: glam::DVec3,
     ) -> Result<ObjectSpace, RenderError> {
         use Access::{Read, Uniform, Write};
         let description = PipelineDescription {
             label: "cast_by_places",
-            sources: &SOURCES,
+            sources: &sources(scene.quantity.fields()),
             entry_point: "cast_by_places",
-            constants: &[("KERNEL", f64::from(kernel.code()))],
+            constants: &[("KERNEL", f64::from(scene.kernel.code()))],
             bindings: &[&BUNDLE_BINDINGS[..], &[Uniform, Read, Read, Write]].concat(),
         };
         let mut object_space = ObjectSpace {
@@ -85,7 +87,7 @@ mod tests {
 
     #[test]
     fn the_grid_lies_as_the_shader_expects() {
-        let source = SOURCES.concat();
+        let source = sources(Fields::One).concat();
         check_layout!(&source, "HashGrid", HashGridUniform, pivot, side, count, mask);
     }
 }

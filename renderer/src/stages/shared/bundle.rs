@@ -184,7 +184,7 @@ fn gcd(a: u64, b: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL};
+    use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL, Fields, TRANSFER_WGSL};
 
     #[test]
     fn every_bundle_has_its_turn_once() {
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn chunks_lie_as_the_shader_expects() {
-        let source = [FRAME_WGSL, BUNDLE_WGSL].concat();
+        let source = [FRAME_WGSL, Fields::One.wgsl(), BUNDLE_WGSL, TRANSFER_WGSL].concat();
         check_layout!(
             &source,
             "Chunk",

@@ -28,7 +28,7 @@ const SLOPES: u32 = 2u;
 @group(0) @binding(2) var<uniform> chunk: Chunk;
 @group(0) @binding(3) var<storage, read> projected: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> weights: array<f32>;
-@group(0) @binding(5) var<storage, read> quantities: array<f32>;
+@group(0) @binding(5) var<storage, read> quantities: array<Quantity>;
 // Where the references of each cell end; those of the first begin at 0.
 @group(0) @binding(6) var<storage, read> cells: array<u32>;
 @group(0) @binding(7) var<storage, read> pairs: array<u32>;
@@ -103,16 +103,16 @@ struct Particle {
     ball: vec4<f32>,
     weight: f32,
     // Relative to the cell's reference: where all particles have the same one, sums are exact.
-    quantity: f32,
+    quantity: Quantity,
 }
 
 // The particle of a reference; one that is left out weighs nothing and is out of reach. `middle`: of the
 // cell, relative to the pivot.
-fn particle_in_cell(reference: u32, middle: vec3<f32>, depth: f32, quantity_reference: f32) -> Particle {
+fn particle_in_cell(reference: u32, middle: vec3<f32>, depth: f32, quantity_reference: Quantity) -> Particle {
     let particle = pairs[reference];
     let quantity = quantities[particle];
-    if quantity > REJECTED {
-        return Particle(vec4(vec3(1e6), 1.0), 0.0, 0.0);
+    if is_rejected(quantity) {
+        return Particle(vec4(vec3(1e6), 1.0), 0.0, Quantity());
     }
     let ball = projected[particle];
     let inverse_radius = depth / ball.w;

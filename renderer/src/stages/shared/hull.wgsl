@@ -49,7 +49,7 @@ fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
 
 // What is known of a cell.
 struct CellEntry {
-    // Values of the cell as a whole.
+    // Values of the cell as a whole, of the quantity that decides the opacity.
     values: vec2<f32>,
     // Place of its bricks' values + 2; 1 where only the values as a whole are known; 0 for neither.
     slot: u32,

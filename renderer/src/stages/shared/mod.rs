@@ -1,6 +1,7 @@
 //! What several stages' shaders see.
 
 mod bundle;
+mod fields;
 mod frame;
 #[cfg(test)]
 mod range_tests;
@@ -8,6 +9,7 @@ mod store;
 mod transfer;
 
 pub(crate) use bundle::{BUNDLE_BINDINGS, Bundles, Counters, spread};
+pub(crate) use fields::Fields;
 pub(crate) use frame::{FrameUniform, TileUniform, pitch, pivot_depth, radius_floor};
 pub use store::ParticleStore;
 pub(crate) use transfer::TransferTables;

@@ -12,6 +12,7 @@ pub struct ParticleStore {
     pub high: Buffer,
     /// Low part of the position, and cube root of the weight V/h³.
     pub low: Buffer,
+    /// One number a particle, or two (`fields/`).
     pub quantities: Buffer,
     /// Position in view space, and support radius: written by the projection.
     pub projected: Buffer,
@@ -76,7 +77,7 @@ impl ParticleStore {
         self.weights.reserve(gpu, self.count)?;
         self.high.write(gpu, &gather(&particles.high, chosen))?;
         self.low.write(gpu, &gather(&particles.low, chosen))?;
-        self.quantities.write(gpu, &gather(&quantity.values, chosen))
+        self.quantities.write(gpu, &quantity.gather(chosen))
     }
 
     /// Number of particles on the device.

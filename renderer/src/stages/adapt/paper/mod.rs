@@ -13,13 +13,14 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, HULL_WGSL, TRANSFER_WGSL};
+use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, TRANSFER_WGSL};
 use super::Adapt;
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     FRAME_WGSL,
+    Fields::One.wgsl(),
     BUNDLE_WGSL,
     TRANSFER_WGSL,
     HULL_WGSL,
