@@ -10,9 +10,8 @@ use renderer::{
 
 use super::listener::{INTERRUPTED, Listener, Stage};
 use super::survey::Survey;
-use super::timed::Timed;
 use super::{Shard, one_line};
-use crate::frames::{Frame, FrameSource, FrameStream, Sequence, Source};
+use crate::frames::{Frame, FrameSource, FrameStream, Sequence, Source, Timed};
 use crate::scene::{self, Selection};
 
 /// Bytes of frames that are read ahead.

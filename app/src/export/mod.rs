@@ -13,7 +13,6 @@ mod record;
 mod shard;
 mod stats_file;
 mod survey;
-mod timed;
 
 pub use film::{Content, Fatal, Film, Run};
 pub use layer::Layer;

@@ -12,6 +12,7 @@ pub mod readers;
 mod sequence;
 mod spacing;
 mod stream;
+mod timed;
 
 pub use column::{Column, Numbers};
 pub use frame::{Field, Frame, FrameError, Metadata};
@@ -21,3 +22,4 @@ pub use range::FrameRange;
 pub use sequence::{Sequence, SequenceError, Source};
 pub use spacing::median_spacing;
 pub use stream::{Cached, FrameSource, FrameState, FrameStream};
+pub use timed::Timed;

@@ -170,6 +170,11 @@ impl FrameStream {
         self.shared.lock().slots.iter().map(cell).collect()
     }
 
+    /// Bytes that frames may take beside the current one.
+    pub fn budget(&self) -> usize {
+        self.shared.lock().budget
+    }
+
     /// Bytes that the cached frames take, the current one counted in.
     pub fn bytes(&self) -> usize {
         let state = self.shared.lock();

@@ -21,6 +21,7 @@ use super::export::Export;
 use super::field_ranges::FieldRanges;
 use super::kept::LastSession;
 use super::measurement::Measurement;
+use super::panels::hud::Hud;
 use super::panels::inspector::Inspector;
 use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
@@ -70,6 +71,7 @@ pub struct Desk {
     /// Of the picture in view.
     pub(super) measurement: Option<Measurement>,
     pub(super) inspector: Inspector,
+    pub(super) hud: Hud,
     pub(super) help: bool,
     pub(super) side_panel: bool,
     /// Whether the start page is shown.
@@ -110,6 +112,7 @@ impl Desk {
             exports: Vec::new(),
             measurement: None,
             inspector: Inspector::default(),
+            hud: Hud::default(),
             help: false,
             side_panel: true,
             start: false,
@@ -240,6 +243,7 @@ impl Desk {
             Action::Settings => self.open_preferences(),
             Action::Start => self.start = !self.start,
             Action::Panels => self.side_panel = !self.side_panel,
+            Action::Performance => self.hud.open = !self.hud.open,
             Action::FullScreen => self.orders.push(Order::FullScreen),
             Action::Help => self.help = !self.help,
             Action::Quit => self.orders.push(Order::Quit),

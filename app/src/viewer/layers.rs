@@ -125,6 +125,7 @@ mod tests {
             sampling: SamplingView { tolerance: Some(0.008), ..SamplingView::default() },
             stats: Stats::default(),
             facts: Facts::default(),
+            drawn: None,
             cells: cells.then(|| Arc::new(map)),
             probed: None,
         }

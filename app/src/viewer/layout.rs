@@ -57,6 +57,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
     let room = PictureView::room(outer, ui.pixels_per_point());
     let rect = desk.picture.show(ui, &mut desk.session);
     over_picture(ui, desk, rect, outer);
+    let measurement = desk.measurement.as_ref().map(|measurement| &measurement.state);
+    desk.hud.show(ui, &desk.session, measurement, rect);
     desk.inspector.show(ui, &mut desk.session, rect);
     help::show(ui, &mut desk.help);
     Palette::show(&mut desk.palette, ui, actions);
@@ -66,7 +68,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
 }
 
 fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    let Desk { session, editor, sampling, measurement, picture, .. } = desk;
+    let Desk { session, editor, sampling, hud, measurement, picture, .. } = desk;
     let measurement = measurement.as_ref().map(|measurement| &measurement.state);
     widgets::section(ui, "Quantity", true, |ui| quantity::show(ui, session));
     widgets::section(ui, "Transfer function", true, |ui| editor.show(ui, session));
@@ -83,7 +85,7 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     widgets::section(ui, "Annotations", false, |ui| annotations::show(ui, session));
     widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
     widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
-    widgets::section(ui, "Performance", true, |ui| performance::show(ui, session));
+    widgets::section(ui, "Performance", true, |ui| performance::show(ui, session, hud.open, actions));
 }
 
 fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {

@@ -55,9 +55,22 @@ pub struct Shown {
     pub sampling: SamplingView,
     pub stats: Stats,
     pub facts: Facts,
+    /// Where it was drawn for this report: what that took, and whether something moved.
+    pub drawn: Option<Drawn>,
     /// What was wanted beside it.
     pub cells: Option<Arc<CellMap>>,
     pub probed: Option<Arc<Probed>>,
+}
+
+/// How a picture came about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drawn {
+    /// Whether another picture was to follow soon.
+    pub moving: bool,
+    /// Of making particles and quantity ready for the device.
+    pub preparing: f64,
+    /// From the wish to the picture, in milliseconds, all stages and the preparing counted in.
+    pub milliseconds: f64,
 }
 
 /// What the thread has to tell.

@@ -1,8 +1,9 @@
 //! An open run: its frames, and the stream that reads them ahead.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use crate::frames::{FrameStream, Sequence};
+use crate::frames::{FrameSource, FrameStream, Sequence, Timed};
 
 use super::Wake;
 
@@ -11,6 +12,8 @@ pub struct Run {
     pub title: String,
     /// One a frame.
     names: Vec<String>,
+    /// One a frame.
+    sources: Vec<Arc<Timed>>,
     pub stream: FrameStream,
 }
 
@@ -24,8 +27,15 @@ impl Run {
             several => several.first().map_or_else(String::new, |first| folder_name(&first.name)),
         };
         let wake = Wake::clone(wake);
-        let stream = FrameStream::new(sequence.frame_sources(), cache, move || wake());
-        Run { title, names, stream }
+        let sources: Vec<Arc<Timed>> = sequence.frame_sources().into_iter().map(Timed::new).collect();
+        let timed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
+        let stream = FrameStream::new(timed, cache, move || wake());
+        Run { title, names, sources, stream }
+    }
+
+    /// Milliseconds that reading frame `index` took, told once for each time that it was read.
+    pub fn take_reading(&self, index: usize) -> f64 {
+        self.sources.get(index).map_or(0.0, |source| source.take_milliseconds())
     }
 
     /// What frame `index` is called.

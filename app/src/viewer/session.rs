@@ -1,5 +1,6 @@
 //! The state of the program: run, playhead, view, messages. Knows no window and no egui.
 
+mod costs;
 mod history;
 mod picture;
 mod space;
@@ -21,6 +22,7 @@ use super::overlay::Overlay;
 use super::playback::{Arrival, Playback};
 use super::render_thread::Job;
 use super::run::Run;
+pub use costs::{Costs, Entry, Stage};
 use history::History;
 pub use picture::PictureFacts;
 
@@ -49,6 +51,8 @@ pub struct Session {
     /// The last frame that was read at the playhead.
     frame: Option<(usize, Arc<Frame>)>,
     pub picture: Option<PictureFacts>,
+    /// What the pictures drawn lately took.
+    pub costs: Costs,
     /// What lies over the picture.
     pub overlay: Overlay,
     /// The pixel of the full-size picture whose bundle is looked at.
@@ -93,6 +97,7 @@ impl Session {
             fits_window: true,
             frame: None,
             picture: None,
+            costs: Costs::default(),
             overlay: Overlay::default(),
             probe: None,
             analysis: None,

@@ -60,6 +60,7 @@ fn picture(session: &Session) -> Report {
         sampling: session.view.sampling,
         stats: Stats::default(),
         facts,
+        drawn: None,
         cells: None,
         probed: None,
     }))

@@ -35,7 +35,7 @@ fn every_shortcut_and_gesture_is_told() {
 #[test]
 fn it_closes_by_its_button_and_by_escape() {
     let mut harness = opened();
-    harness.get_by_label("Close").click();
+    harness.get_by_label("Close").click_accesskit();
     harness.run();
     assert!(!harness.state());
     let mut harness = opened();

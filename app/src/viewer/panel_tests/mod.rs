@@ -10,6 +10,7 @@ mod messages;
 mod overlay_legend;
 mod palette;
 mod particles;
+mod performance;
 mod preferences;
 mod quantity;
 mod sampling;
@@ -87,6 +88,7 @@ fn shown(session: &Session, stats: Stats) -> Shown {
         sampling: session.view.sampling,
         stats,
         facts,
+        drawn: None,
         cells: None,
         probed: None,
     }

@@ -7,6 +7,8 @@ pub mod cells;
 pub mod error_legend;
 pub mod filters;
 pub mod help;
+pub mod hud;
+pub mod hud_chart;
 pub mod image;
 pub mod inspector;
 pub mod inspector_plot;

@@ -3,9 +3,16 @@
 use egui::{Align2, RichText, Sense, Ui, vec2};
 
 use crate::viewer::session::Session;
+use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::{theme, widgets};
 
-pub fn show(ui: &mut Ui, session: &Session) {
+/// `hud` says whether the times of the last pictures are shown over the picture.
+pub fn show(ui: &mut Ui, session: &Session, hud: bool, actions: &mut Vec<Action>) {
+    let mut shown = hud;
+    let switch = ui.checkbox(&mut shown, "Show over the picture");
+    if switch.on_hover_text(hint(ui.ctx(), Action::Performance)).changed() {
+        actions.push(Action::Performance);
+    }
     let Some(picture) = &session.picture else {
         ui.label(RichText::new("No picture yet.").color(theme::FAINT));
         return;
@@ -32,9 +39,13 @@ pub fn show(ui: &mut Ui, session: &Session) {
     widgets::fact(ui, "Slices", widgets::count(stats.slices));
     widgets::fact(ui, "Cells", widgets::count(stats.cells));
     widgets::fact(ui, "Pairs", widgets::count(stats.pairs));
-    widgets::fact(ui, "Device memory", widgets::bytes(stats.gpu_bytes));
+    widgets::fact(ui, "Device memory", widgets::bytes(stats.gpu_bytes))
+        .on_hover_text("The most that the renderer held at a time for this picture");
     if let Some(run) = session.run() {
-        widgets::fact(ui, "Frames in memory", widgets::bytes(run.stream.bytes() as u64));
+        let [held, limit] =
+            [run.stream.bytes(), run.stream.budget()].map(|bytes| widgets::bytes(bytes as u64));
+        widgets::fact(ui, "Frames in memory", format!("{held} of {limit}"))
+            .on_hover_text("Frames read ahead and kept, of what they may take beside the current one");
     }
     let software = session.adapter.as_ref().is_some_and(|(_, software)| *software);
     widgets::fact(

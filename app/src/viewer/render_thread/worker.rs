@@ -10,7 +10,7 @@ use renderer::{
     CellMap, Gpu, GpuOptions, Picture, Progress, RenderError, Renderer, SamplingView, Scene, View,
 };
 
-use super::{IDLE, Job, Looks, Report, Shown, Slot, without_background};
+use super::{Drawn, IDLE, Job, Looks, Report, Shown, Slot, without_background};
 use crate::frames::Frame;
 use crate::viewer::Wake;
 use crate::viewer::pace::{DIVISORS, Pace};
@@ -108,12 +108,12 @@ impl Worker {
         let stale = self.last.take_if(|last| !Arc::ptr_eq(&last.frame, &job.frame) || last.view != key);
         let mut divisor = match &self.last {
             Some(last) if last.divisor == 1 || job.moving => {
-                return self.tell(job);
+                return self.tell(job, None);
             }
             Some(last) => {
                 let divisor = last.divisor;
                 // The background may be another one, or what is wanted beside the picture.
-                self.tell(job)?;
+                self.tell(job, None)?;
                 Pace::finer(divisor)
             }
             None if job.moving => self.pace.moving(),
@@ -139,6 +139,7 @@ impl Worker {
 
     /// Draws one picture at 1/`divisor` and reports it.
     fn pass(&mut self, job: &Job, key: &View, divisor: u32, first: bool) -> Result<(), Stop> {
+        let asked = Instant::now();
         let (scene, facts) = self.scene(&job.frame, key, divisor)?;
         let begun = Instant::now();
         let (picture, cells) = self.attempt(&scene, divisor, first, |renderer, progress| {
@@ -152,13 +153,18 @@ impl Worker {
         self.pace.learn(pixels, divisor, begun.elapsed().as_secs_f64() * 1e3);
         let (frame, view) = (Arc::clone(&job.frame), key.clone());
         self.last = Some(Last { frame, view, divisor, picture, facts, cells, probed: None });
-        self.tell(job)
+        let drawn = Drawn {
+            moving: job.moving,
+            preparing: (begun - asked).as_secs_f64() * 1e3,
+            milliseconds: asked.elapsed().as_secs_f64() * 1e3,
+        };
+        self.tell(job, Some(drawn))
     }
 
     /// Reports the last picture, with what is wanted beside it; without that where it was not found out.
-    fn tell(&mut self, job: &Job) -> Result<(), Stop> {
+    fn tell(&mut self, job: &Job, drawn: Option<Drawn>) -> Result<(), Stop> {
         let looked = self.look(job);
-        self.show(job);
+        self.show(job, drawn);
         looked
     }
 
@@ -201,7 +207,7 @@ impl Worker {
     }
 
     /// Reports the last picture, over the background of `job`.
-    fn show(&self, job: &Job) {
+    fn show(&self, job: &Job, drawn: Option<Drawn>) {
         let Some(Last { divisor, picture, facts, view, cells, probed, .. }) = &self.last else { return };
         let shown = Shown {
             index: job.index,
@@ -213,6 +219,7 @@ impl Worker {
             sampling: view.sampling,
             stats: picture.stats.clone(),
             facts: facts.clone(),
+            drawn,
             cells: cells.clone().filter(|_| job.looks.cells),
             probed: probed.clone().filter(|probed| job.looks.probe == Some(probed.asked)),
         };

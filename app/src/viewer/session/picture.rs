@@ -1,6 +1,7 @@
 //! What the session learns from the pictures that arrive.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use renderer::{Rejected, SamplingView, Stats};
 
@@ -42,6 +43,10 @@ impl Session {
 
     fn note_picture(&mut self, shown: &Shown) {
         self.without_picture = None;
+        if shown.drawn.is_some() {
+            let reading = self.run.as_ref().map_or(0.0, |run| run.take_reading(shown.index));
+            self.costs.note(Instant::now(), shown, reading);
+        }
         let facts = &shown.facts;
         let aspect = f64::from(shown.full[0]) / f64::from(shown.full[1].max(1));
         let bounds = match (self.extent.0, facts.bounds) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use crate::frames::{Frame, FrameSource};
+use super::{Frame, FrameSource};
 
 /// A source with a stop-watch.
 pub struct Timed {
@@ -20,6 +20,11 @@ impl Timed {
     /// Time of the last reading; 0 before the first.
     pub fn milliseconds(&self) -> f64 {
         self.microseconds.load(Ordering::Relaxed) as f64 / 1000.0
+    }
+
+    /// The same, told once for each reading: 0 where the frame was not read since.
+    pub fn take_milliseconds(&self) -> f64 {
+        self.microseconds.swap(0, Ordering::Relaxed) as f64 / 1000.0
     }
 }
 

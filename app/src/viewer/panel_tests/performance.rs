@@ -1,0 +1,101 @@
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use renderer::{Evaluations, Milliseconds, Stats};
+
+use super::{assert_written, fluid, panel, pictured, shown, texts};
+use crate::viewer::panels::{hud::Hud, performance};
+use crate::viewer::render_thread::{Drawn, Report};
+use crate::viewer::session::Session;
+use crate::viewer::shortcuts::Action;
+use crate::viewer::{theme, widgets};
+
+fn stats() -> Stats {
+    Stats {
+        slices: 1232,
+        evaluations: Evaluations { done: 5_000_000, bounds: 1, ..Evaluations::default() },
+        predicted_error: 0.003,
+        milliseconds: Milliseconds { grid: 2.5, ray_cast: 10.25, total: 12.75, ..Milliseconds::default() },
+        gpu_bytes: 3 << 20,
+        ..Stats::default()
+    }
+}
+
+/// A session with a picture of 20 ms at half the resolution, and one of 40 ms in full.
+fn drawn() -> Session {
+    let mut session = fluid();
+    for (divisor, milliseconds) in [(2, 20.0), (1, 40.0)] {
+        let mut shown = shown(&session, stats());
+        shown.divisor = divisor;
+        shown.drawn = Some(Drawn { moving: divisor > 1, preparing: 1.0, milliseconds });
+        session.note(&Report::Picture(Box::new(shown)));
+    }
+    session
+}
+
+#[test]
+fn the_panel_tells_the_stages_of_the_last_picture_and_the_memory_that_is_held() {
+    let harness = panel((pictured(fluid(), stats()), Vec::new()), |ui, (session, actions)| {
+        performance::show(ui, session, false, actions);
+    });
+    assert_written(&harness, &["Grid", "2.50 ms", "10.25 ms", "12.75 ms", "1\u{202f}232", "3.0 MiB"]);
+    assert!(!texts(&harness).iter().any(|text| text == "Analysis"), "there was none");
+    let stream = &harness.state().0.run().unwrap().stream;
+    let [held, limit] = [stream.bytes(), stream.budget()].map(|bytes| widgets::bytes(bytes as u64));
+    assert_written(&harness, &[&format!("{held} of {limit}")]);
+}
+
+#[test]
+fn the_panel_turns_the_display_over_the_picture_on() {
+    let mut harness = panel((fluid(), Vec::new()), |ui, (session, actions)| {
+        performance::show(ui, session, false, actions);
+    });
+    harness.get_by_label("Show over the picture").click();
+    harness.run();
+    assert_eq!(harness.state().1, [Action::Performance]);
+}
+
+fn over_picture(session: Session) -> Harness<'static, (Session, Hud)> {
+    let mut hud = Hud::default();
+    hud.open = true;
+    let mut harness = Harness::builder().with_size(egui::vec2(960.0, 700.0)).build_ui_state(
+        |ui, (session, hud): &mut (Session, Hud)| {
+            theme::apply(ui.ctx());
+            hud.show(ui, session, None, ui.max_rect());
+        },
+        (session, hud),
+    );
+    harness.run();
+    harness
+}
+
+#[test]
+fn the_display_tells_the_last_picture_and_the_one_under_the_mouse() {
+    let mut harness = over_picture(drawn());
+    assert_written(&harness, &["40.0 ms", "full", "0.004", "10.2 ms", "26.2 ms", "0.003 of 0.004", "5.00 M"]);
+    // The last but one is three points from the right end of its bars.
+    let bars = harness.get_by_label("Times of the last pictures").rect();
+    harness.hover_at(bars.right_top() + egui::vec2(-4.0, 20.0));
+    harness.run();
+    assert_written(&harness, &["1 before, frame 0", "20.0 ms", "1/2", "6.2 ms"]);
+}
+
+#[test]
+fn the_display_is_copied_as_a_table_and_closed() {
+    let mut harness = over_picture(drawn());
+    // The command is that of one frame: the one in which the button is let go of.
+    harness.get_by_label("Copy as CSV").click_accesskit();
+    harness.step();
+    let copied = harness.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    assert_eq!(copied.map(|text| text.lines().count()), Some(3));
+    harness.get_by_label("Close").click();
+    harness.run();
+    assert!(!harness.state().1.open && texts(&harness).is_empty());
+}
+
+#[test]
+fn before_the_first_picture_there_is_nothing_to_tell() {
+    assert_written(&over_picture(fluid()), &["No picture yet."]);
+}
