@@ -35,6 +35,13 @@ pub fn on_axis(value: f64, span: f64) -> String {
     if value.abs() < 1e-6 * span.abs() { "0".into() } else { short(value) }
 }
 
+/// A coordinate in a scene of size `scale`, to four digits of that.
+pub fn on_scale(value: f64, scale: f64) -> String {
+    let step = 10_f64.powf(scale.abs().max(f64::MIN_POSITIVE).log10().floor() - 3.0);
+    let rounded = (value / step).round() * step;
+    short(if rounded.is_finite() { rounded } else { value })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,6 +59,7 @@ mod tests {
         assert_eq!(short(0.00123456), "0.001235");
         assert_eq!(with_digits(1000.0125, 7), "1000.013");
         assert_eq!(with_digits(-2.5e12, 2), "-2.5e12");
+        assert_eq!([3.066e-4, -0.123_456, 1.5].map(|x| on_scale(x, 2.0)), ["0", "-0.123", "1.5"]);
         assert_eq!(on_axis(8.859e-15, 1.0), "0");
         assert_eq!(on_axis(8.859e-15, 2e-14), "8.859e-15");
     }

@@ -56,6 +56,25 @@ impl Projection {
         Some(Place { at: 0.5 * DVec2::new(self.width, self.height) + at, depth })
     }
 
+    /// Both ends of a line of the world in the picture, cut off just before the eye; `None` for one
+    /// that lies behind it.
+    pub fn segment(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
+        let [a, b] = match (self.project(a), self.project(b)) {
+            (Some(a), Some(b)) => [a, b],
+            (Some(seen), None) => [seen, self.last_seen(a, b)?],
+            (None, Some(seen)) => [self.last_seen(b, a)?, seen],
+            (None, None) => return None,
+        };
+        Some([a.at, b.at])
+    }
+
+    /// A point close to where the line from `seen` to `behind`, which is behind the eye, leaves the view.
+    fn last_seen(&self, seen: DVec3, behind: DVec3) -> Option<Place> {
+        let depth = |point: DVec3| (point - self.eye).dot(self.forward);
+        let share = depth(seen) / (depth(seen) - depth(behind));
+        self.project(seen + 0.98 * share * (behind - seen))
+    }
+
     /// The point at view depth `depth` that is seen at `place`.
     pub fn unproject(&self, place: DVec2, depth: f64) -> DVec3 {
         self.eye + depth * self.ray(place)
@@ -104,6 +123,16 @@ mod tests {
         }
         assert!(projection.project(projection.eye - projection.forward).is_none());
         assert!(projection.project(projection.eye).is_none());
+    }
+
+    #[test]
+    fn lines_end_before_the_eye() {
+        let p = projection();
+        let (ahead, behind) = (p.eye + 2.0 * p.forward, p.eye - p.forward + p.right);
+        let [a, b] = p.segment(ahead, behind).unwrap();
+        assert!(a.is_finite() && b.is_finite() && b.x > a.x);
+        assert_eq!(p.segment(behind, ahead), Some([b, a]));
+        assert!(p.segment(behind, p.eye - 2.0 * p.forward).is_none());
     }
 
     #[test]

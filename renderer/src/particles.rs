@@ -193,6 +193,11 @@ impl ParticleSet {
         f64::from(self.high[index][3]) * self.unit
     }
 
+    /// Cube root of the weight V/h³ of the kept particle `index`, in a unit that all of them share.
+    pub(crate) fn weight_root(&self, index: usize) -> f64 {
+        f64::from(self.low[index][3])
+    }
+
     /// Nearest and farthest depth along `forward` (a unit vector) from `eye` that the support of a
     /// kept particle reaches; nearest is below zero where the eye is inside one. `None` where
     /// nothing lies in front.
@@ -304,6 +309,11 @@ impl Quantity {
 
     pub(crate) fn is_rejected(&self, index: usize) -> bool {
         self.values[index * self.fields().count() as usize] == Self::REJECTED
+    }
+
+    /// The normalised quantities of the colour and of the opacity.
+    pub(crate) fn values_of(&self, index: usize) -> [f64; 2] {
+        [f64::from(self.values[index]); 2]
     }
 
     pub(crate) fn id(&self) -> u64 {

@@ -27,9 +27,11 @@ use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
 use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
+use super::picked::Located;
 use super::picture_view::PictureView;
+use super::pointing::Pointed;
 use super::render_thread::{RenderThread, Report};
-use super::session::Session;
+use super::session::{Session, Tool};
 use super::shortcuts::Action;
 use super::task::Outcome;
 use super::widgets::Areas;
@@ -44,6 +46,8 @@ enum Done {
     ViewSaved(PathBuf, anyhow::Result<()>),
     Counted(Analysis),
     Ranged(FieldRanges),
+    Pointed(Box<Pointed>),
+    Located(Located),
     Kept(anyhow::Result<()>),
     Adapters(Vec<String>),
 }
@@ -87,7 +91,7 @@ pub struct Desk {
     done: (mpsc::Sender<Done>, mpsc::Receiver<Done>),
     counting: bool,
     finding: bool,
-    looking: looking::Looking,
+    inquiries: looking::Inquiries,
     /// Which device the command line asks for, and which one is asked for in the end.
     given_gpu: GpuOptions,
     gpu: GpuOptions,
@@ -126,7 +130,7 @@ impl Desk {
             done: mpsc::channel(),
             counting: false,
             finding: false,
-            looking: looking::Looking::default(),
+            inquiries: looking::Inquiries::default(),
             given_gpu: options.gpu,
             gpu,
             wake,
@@ -234,10 +238,9 @@ impl Desk {
             }
             Action::ZoomIn | Action::ZoomOut => self.picture.zoom(session, action == Action::ZoomIn),
             Action::Fly => self.picture.flying = !self.picture.flying,
-            Action::Inspect => {
-                self.picture.inspecting = !self.picture.inspecting;
-                session.log(if self.picture.inspecting { "inspect on" } else { "inspect off" });
-            }
+            Action::Inspect => session.take_tool(Tool::Inspect),
+            Action::Pick => session.take_tool(Tool::Pick),
+            Action::Measure => session.take_tool(Tool::Measure),
             Action::CellClasses => session.overlay.toggle_classes(),
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Settings => self.open_preferences(),
@@ -297,6 +300,8 @@ impl Desk {
                         preferences.adapters = Some(names);
                     }
                 }
+                Done::Pointed(pointed) => self.take_pointed(*pointed),
+                Done::Located(located) => self.take_located(located),
             }
         }
     }
@@ -352,17 +357,14 @@ impl Desk {
         });
     }
 
-    /// Closes the inspector, and then ends the tool.
+    /// Closes what a tool has opened, and then puts the tool away.
     fn escape(&mut self, context: &egui::Context) {
         let covered = self.help || self.palette.is_some() || self.preferences.is_some();
         let elsewhere = covered || egui::Popup::is_any_open(context) || context.egui_wants_keyboard_input();
         if elsewhere || !context.input(|input| input.key_pressed(egui::Key::Escape)) {
             return;
         }
-        match self.session.probe.take() {
-            Some(_) => self.session.log("inspector closed"),
-            None => self.picture.inspecting = false,
-        }
+        self.session.put_away();
     }
 
     /// Asks for the picture again, after the window's device was lost with all textures.

@@ -106,11 +106,11 @@ impl Handles {
         let painter = ui.painter_at(over.picture);
         let corners = clip_plane::outline(clip, &over.scene);
         for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            if let Some(ends) = reach::line(&over.projection, *corner, *next) {
+            if let Some(ends) = over.projection.segment(*corner, *next) {
                 over.line(&painter, ends, 1.0);
             }
         }
-        let Some(ends) = reach::line(&over.projection, arrow.foot, arrow.tip()) else { return };
+        let Some(ends) = over.projection.segment(arrow.foot, arrow.tip()) else { return };
         over.line(&painter, ends, 1.0);
         let [foot, tip] = ends;
         if let Some(from) = self.dot(ui, over, foot, FOOT, theme::TEXT) {

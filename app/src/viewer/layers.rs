@@ -128,6 +128,7 @@ mod tests {
             drawn: None,
             cells: cells.then(|| Arc::new(map)),
             probed: None,
+            shot: None,
         }
     }
 

@@ -8,8 +8,8 @@ use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
 use super::panels::toolbar::Modes;
 use super::panels::{
-    annotations, camera, cells, help, image, measured_error, messages, overlay_legend, particles,
-    performance, quantity, saved, selection, start, timeline, toolbar,
+    annotations, camera, cells, distance, help, image, measured_error, messages, overlay_legend, particles,
+    performance, picked, quantity, saved, selection, start, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
@@ -20,11 +20,8 @@ use super::{theme, widgets};
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2] {
     let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 0));
     Panel::top("toolbar").exact_size(40.0).frame(bar).show(ui, |ui| {
-        let modes = Modes {
-            flying: desk.picture.flying,
-            inspecting: desk.picture.inspecting,
-            panels: desk.side_panel,
-        };
+        let modes =
+            Modes { flying: desk.picture.flying, tool: desk.session.looking.tool, panels: desk.side_panel };
         toolbar::show(ui, &desk.session, modes, actions);
     });
     if desk.session.playback.count() > 1 {
@@ -60,6 +57,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
     let measurement = desk.measurement.as_ref().map(|measurement| &measurement.state);
     desk.hud.show(ui, &desk.session, measurement, rect);
     desk.inspector.show(ui, &mut desk.session, rect);
+    picked::show(ui, &mut desk.session, rect);
+    distance::show(ui, &mut desk.session, rect);
     help::show(ui, &mut desk.help);
     Palette::show(&mut desk.palette, ui, actions);
     Preferences::show(ui, desk);

@@ -28,8 +28,11 @@ mod pace;
 #[cfg(test)]
 mod panel_tests;
 mod panels;
+mod picked;
 mod picture_view;
 mod playback;
+mod pointer;
+mod pointing;
 mod prepare;
 mod probe;
 mod render_thread;

@@ -171,6 +171,16 @@ impl OrbitCamera {
         self.target += self.lateral(cursor, screen) * self.distance;
     }
 
+    /// Looks at `point` from as far away, and from the same side, as at the target before.
+    pub fn look_at(&mut self, point: DVec3) {
+        self.target = point;
+    }
+
+    /// Goes along `way`, eye and target alike.
+    pub fn shift(&mut self, way: DVec3) {
+        self.target += way;
+    }
+
     /// Flies `steps` (right, up, forward) in shares of the scene's radius.
     pub fn fly(&mut self, steps: DVec3) {
         let [right, up, forward] = steps.to_array();

@@ -11,17 +11,15 @@ use super::layers::Layers;
 use super::orbit_camera::{OrbitCamera, Screen};
 use super::overlay::Overlay;
 use super::panels::probe;
-use super::session::Session;
-use super::theme;
+use super::session::{Session, Tool};
 use super::widgets::Areas;
+use super::{pointer, theme};
 
 /// The picture as a texture, and what the mouse does over it.
 pub struct PictureView {
     pub layers: Layers,
     pub handles: Handles,
     texture: Option<TextureHandle>,
-    /// Whether a click looks into the picture.
-    pub inspecting: bool,
     pub flying: bool,
     /// Speed of flying, in shares of the scene's radius a second.
     speed: f64,
@@ -37,7 +35,6 @@ impl PictureView {
             layers: Layers::default(),
             handles: Handles::default(),
             texture: None,
-            inspecting: false,
             flying: false,
             speed: 0.5,
         }
@@ -85,9 +82,12 @@ impl PictureView {
         }
         self.steer(ui, &response, rect, session);
         self.handles.show(ui, rect, session);
-        if self.inspecting {
-            probe::pick(ui, &response, rect, session);
+        match session.looking.tool {
+            Some(Tool::Inspect) => probe::pick(ui, &response, rect, session),
+            Some(Tool::Pick | Tool::Measure) => pointer::point(ui, &response, rect, session),
+            None => {}
         }
+        pointer::show(ui, rect, session);
         probe::mark(ui, rect, session);
         rect
     }
@@ -117,7 +117,7 @@ impl PictureView {
             ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         }
         if response.double_clicked()
-            && !self.inspecting
+            && session.looking.tool.is_none()
             && let Some(position) = response.interact_pointer_pos()
         {
             camera.centre_on(cursor(position), screen);

@@ -16,6 +16,7 @@ use renderer::{CellMap, GpuOptions, SamplingView, Stats, View};
 use crate::frames::Frame;
 
 use super::Wake;
+use super::pointing::Shot;
 use super::prepare::Facts;
 use super::probe::Probed;
 use worker::Worker;
@@ -40,6 +41,8 @@ pub struct Looks {
     pub cells: bool,
     /// All about the bundle of this pixel of the full-size picture.
     pub probe: Option<[u32; 2]>,
+    /// What it was drawn from.
+    pub shot: bool,
 }
 
 /// A picture for the screen.
@@ -60,6 +63,7 @@ pub struct Shown {
     /// What was wanted beside it.
     pub cells: Option<Arc<CellMap>>,
     pub probed: Option<Arc<Probed>>,
+    pub shot: Option<Shot>,
 }
 
 /// How a picture came about.

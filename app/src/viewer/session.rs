@@ -2,6 +2,7 @@
 
 mod costs;
 mod history;
+mod looking;
 mod picture;
 mod space;
 mod wish;
@@ -24,6 +25,7 @@ use super::render_thread::Job;
 use super::run::Run;
 pub use costs::{Costs, Entry, Stage};
 use history::History;
+pub use looking::{Looking, Tool};
 pub use picture::PictureFacts;
 
 /// Where the range of the transfer function comes from.
@@ -57,6 +59,8 @@ pub struct Session {
     pub overlay: Overlay,
     /// The pixel of the full-size picture whose bundle is looked at.
     pub probe: Option<[u32; 2]>,
+    /// The tool in hand, and what was found with it.
+    pub looking: Looking,
     pub analysis: Option<Analysis>,
     /// Of the fields of a frame, and whether they are wanted.
     pub field_ranges: Option<FieldRanges>,
@@ -100,6 +104,7 @@ impl Session {
             costs: Costs::default(),
             overlay: Overlay::default(),
             probe: None,
+            looking: Looking::default(),
             analysis: None,
             field_ranges: None,
             wants_field_ranges: false,
@@ -131,6 +136,7 @@ impl Session {
         self.run = Some(run);
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
         self.probe = None;
+        self.looking.forget();
         self.history = History::default();
         self.seen.clear();
         self.told.clear();

@@ -63,6 +63,7 @@ fn picture(session: &Session) -> Report {
         drawn: None,
         cells: None,
         probed: None,
+        shot: None,
     }))
 }
 

@@ -32,6 +32,8 @@ pub enum Action {
     ZoomOut,
     Fly,
     Inspect,
+    Pick,
+    Measure,
     CellClasses,
     Palette,
     Settings,
@@ -107,6 +109,8 @@ pub const SHORTCUTS: &[Shortcut] = &[
     key("Window", CTRL, Key::K, Action::Palette, "Command palette"),
     key("Window", CTRL, Key::Comma, Action::Settings, "Settings"),
     key("Window", CTRL, Key::H, Action::Start, "Start page: recent runs"),
+    key("Picture", NONE, Key::K, Action::Pick, "Pick: a click picks a particle"),
+    key("Picture", NONE, Key::M, Action::Measure, "Measure: two clicks, and how far apart they are"),
     key("Window", NONE, Key::P, Action::Panels, "Side panel on or off"),
     key("Window", NONE, Key::F9, Action::Performance, "Times of the last pictures on or off"),
     key("Window", NONE, Key::F11, Action::FullScreen, "Full screen on or off"),
@@ -116,14 +120,15 @@ pub const SHORTCUTS: &[Shortcut] = &[
 ];
 
 /// What the mouse does over the picture, and the keys that act as long as they are held.
-pub const GESTURES: [(&str, &str); 10] = [
+pub const GESTURES: [(&str, &str); 11] = [
     ("Left drag", "Orbit"),
     ("Right drag, Shift + drag", "Pan"),
     ("Wheel, pinch", "Zoom to the cursor"),
     ("Ctrl + left drag", "Zoom to the centre"),
     ("Double click", "Turn around this point"),
-    ("Click", "With Inspect on: look into this pixel"),
-    ("Escape", "Close the inspector, and end Inspect"),
+    ("Click", "With Inspect: look into this pixel"),
+    ("Click", "With Pick, Measure: the particle seen here"),
+    ("Escape", "Close what a tool opened; put it away"),
     ("W A S D, Q E", "In fly mode: move, sink and rise"),
     ("Left drag, wheel", "In fly mode: look around, speed"),
     ("Shift", "In fly mode: faster"),

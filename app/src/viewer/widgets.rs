@@ -4,7 +4,7 @@ use egui::collapsing_header::CollapsingState;
 use egui::{Align, Align2, Color32, Layout, Response, RichText, Sense, Stroke, Ui, pos2, vec2};
 
 use super::theme;
-pub use crate::numbers::{on_axis, short};
+pub use crate::numbers::{on_axis, on_scale, short};
 
 /// Where the parts of the window are that scripts drive it by, for `--log-events`.
 #[derive(Clone, Default, PartialEq)]

@@ -1,26 +1,47 @@
-//! What is found out about the particles in view, on threads of their own, one at a time.
+//! What is found out about the particles in view, on threads of their own, one of each kind at a time.
 
 use std::sync::Arc;
 
 use super::{Desk, Done};
 use crate::viewer::field_ranges::FieldRanges;
+use crate::viewer::picked::Located;
+use crate::viewer::pointing::Pointed;
 
 /// What is at work.
 #[derive(Default)]
-pub(super) struct Looking {
+pub(super) struct Inquiries {
     ranges: bool,
+    pointing: bool,
+    search: bool,
 }
 
 impl Desk {
-    /// Finds out what the panels want to know and is not known.
+    /// Finds out what panels and tools want to know and is not known. Of several wishes of a kind,
+    /// the latest is the one that is asked next.
     pub(super) fn look_closer(&mut self) {
+        if !self.inquiries.pointing
+            && let Some(question) = self.session.looking.question()
+        {
+            self.inquiries.pointing = true;
+            self.work(move || Done::Pointed(Box::new(question.answer())));
+        }
+        if !self.inquiries.search
+            && let Some(search) = self.session.search()
+        {
+            self.inquiries.search = true;
+            self.work(move || Done::Located(search.locate()));
+        }
+        self.find_ranges();
+    }
+
+    fn find_ranges(&mut self) {
         let session = &mut self.session;
         if let Some((_, frame)) = session.frame()
             && session.wants_field_ranges
-            && !self.looking.ranges
+            && !self.inquiries.ranges
             && !session.field_ranges.as_ref().is_some_and(|known| known.is_of(frame))
         {
-            self.looking.ranges = true;
+            self.inquiries.ranges = true;
             let frame = Arc::clone(frame);
             self.work(move || Done::Ranged(FieldRanges::find(frame)));
         }
@@ -28,7 +49,17 @@ impl Desk {
     }
 
     pub(super) fn take_field_ranges(&mut self, ranges: FieldRanges) {
-        self.looking.ranges = false;
+        self.inquiries.ranges = false;
         self.session.field_ranges = Some(ranges);
+    }
+
+    pub(super) fn take_pointed(&mut self, pointed: Pointed) {
+        self.inquiries.pointing = false;
+        self.session.take_pointed(pointed);
+    }
+
+    pub(super) fn take_located(&mut self, located: Located) {
+        self.inquiries.search = false;
+        self.session.take_located(located);
     }
 }

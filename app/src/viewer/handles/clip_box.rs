@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use renderer::ClipBox;
 
-use super::reach::{along, line};
+use super::reach::along;
 use crate::projection::Projection;
 
 /// What of a box is dragged.
@@ -81,7 +81,7 @@ pub fn edges(clip: &ClipBox, projection: &Projection) -> Vec<([DVec2; 2], bool)>
             // An edge is hidden where both of its sides face away from the eye.
             let faces_away = |other: usize, sign: f64| sign * axes.col(other).dot(to_eye) < half[other];
             let hidden = faces_away(others[0], a) && faces_away(others[1], b);
-            if let Some(ends) = line(projection, corner(from), corner(to)) {
+            if let Some(ends) = projection.segment(corner(from), corner(to)) {
                 edges.push((ends, hidden));
             }
         }

@@ -38,25 +38,6 @@ pub fn around(
     (miss + way * ray).try_normalize()
 }
 
-/// Both ends of a line of the world in the picture, cut off where it comes too close to the eye.
-pub fn line(projection: &Projection, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
-    let place = |point| projection.project(point);
-    let [a, b] = match (place(a), place(b)) {
-        (Some(a), Some(b)) => [a, b],
-        (Some(seen), None) => [seen, last_seen(projection, a, b)?],
-        (None, Some(seen)) => [last_seen(projection, b, a)?, seen],
-        (None, None) => return None,
-    };
-    Some([a.at, b.at])
-}
-
-/// The point of the line from `seen` to `behind`, which is behind the eye, that is just before it.
-fn last_seen(projection: &Projection, seen: DVec3, behind: DVec3) -> Option<crate::projection::Place> {
-    let depth = |point: DVec3| (point - projection.eye).dot(projection.forward);
-    let share = depth(seen) / (depth(seen) - depth(behind));
-    projection.project(seen + 0.98 * share * (behind - seen))
-}
-
 #[cfg(test)]
 pub mod tests {
     use super::*;
@@ -101,13 +82,5 @@ pub mod tests {
         }
         let past = around(&p, DVec2::new(520.0, 300.0), centre, 0.5, false).unwrap();
         assert!(past.dot(p.right) > 0.8);
-    }
-
-    #[test]
-    fn lines_end_before_the_eye() {
-        let p = projection();
-        let [a, b] = line(&p, DVec3::ZERO, 3.0 * p.eye + p.right).unwrap();
-        assert!(a.is_finite() && b.is_finite() && b.x > a.x);
-        assert!(line(&p, 2.0 * p.eye, 3.0 * p.eye).is_none());
     }
 }

@@ -5,6 +5,7 @@ mod cells;
 mod handles;
 mod help;
 mod inspector;
+mod looking;
 mod measured_error;
 mod messages;
 mod overlay_legend;
@@ -91,6 +92,7 @@ fn shown(session: &Session, stats: Stats) -> Shown {
         drawn: None,
         cells: None,
         probed: None,
+        shot: None,
     }
 }
 

@@ -18,7 +18,7 @@ fn bar(session: Session) -> Harness<'static, Bar> {
     let mut harness = Harness::builder().with_size(egui::vec2(1280.0, 300.0)).build_ui_state(
         |ui, (session, actions): &mut Bar| {
             theme::apply(ui.ctx());
-            let modes = Modes { flying: false, inspecting: false, panels: true };
+            let modes = Modes { flying: false, tool: None, panels: true };
             ui.allocate_ui(egui::vec2(ui.available_width(), 40.0), |ui| {
                 toolbar::show(ui, session, modes, actions);
             });

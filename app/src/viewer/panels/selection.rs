@@ -162,8 +162,10 @@ fn clip_plane(ui: &mut Ui, clip: &mut ClipPlane, scene: &Bounds, looking: DVec3)
     offset(ui, clip, scene);
     let scale = scene.diagonal();
     widgets::row(ui, "Point", |ui| {
-        three(ui, clip.point.as_mut(), "Point of the plane", |x| widgets::number(x, scale))
-            .on_hover_text("Any point of the plane, in the unit of the run");
+        three(ui, clip.point.as_mut(), "Point of the plane", |x| {
+            widgets::number(x, scale).custom_formatter(move |x, _| widgets::on_scale(x, scale))
+        })
+        .on_hover_text("Any point of the plane, in the unit of the run");
     });
     widgets::row(ui, "Normal", |ui| {
         let mut normal = clip.normal;

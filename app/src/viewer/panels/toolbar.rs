@@ -4,7 +4,7 @@ use egui::{Align, Button, Layout, Response, Ui};
 
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::orbit_camera::Side;
-use crate::viewer::session::Session;
+use crate::viewer::session::{Session, Tool};
 use crate::viewer::shortcuts::{Action, hint, keys};
 use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
@@ -13,7 +13,7 @@ use crate::viewer::widgets::Areas;
 #[derive(Clone, Copy, Debug)]
 pub struct Modes {
     pub flying: bool,
-    pub inspecting: bool,
+    pub tool: Option<Tool>,
     pub panels: bool,
 }
 
@@ -77,8 +77,15 @@ fn camera(ui: &mut Ui, modes: Modes, actions: &mut Vec<Action>) {
     });
     call(ui, ui_button("Fly", modes.flying), Action::Fly, actions);
     gap(ui);
-    let inspect = call(ui, ui_button("Inspect", modes.inspecting), Action::Inspect, actions);
-    Areas::mark(ui, "inspect", inspect.rect);
+    let tools = [
+        ("Inspect", "inspect", Tool::Inspect, Action::Inspect),
+        ("Pick", "pick", Tool::Pick, Action::Pick),
+        ("Measure", "measure distance", Tool::Measure, Action::Measure),
+    ];
+    for (label, area, tool, action) in tools {
+        let button = call(ui, ui_button(label, modes.tool == Some(tool)), action, actions);
+        Areas::mark(ui, area, button.rect);
+    }
 }
 
 fn gap(ui: &mut Ui) {

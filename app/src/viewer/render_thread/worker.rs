@@ -14,6 +14,7 @@ use super::{Drawn, IDLE, Job, Looks, Report, Shown, Slot, without_background};
 use crate::frames::Frame;
 use crate::viewer::Wake;
 use crate::viewer::pace::{DIVISORS, Pace};
+use crate::viewer::pointing::Shot;
 use crate::viewer::prepare::{Facts, Preparation};
 use crate::viewer::probe::Probed;
 use crate::viewer::tone;
@@ -42,10 +43,23 @@ struct Last {
     /// Without its background.
     view: View,
     divisor: u32,
+    scene: Arc<Scene>,
     picture: Picture,
     facts: Facts,
     cells: Option<Arc<CellMap>>,
     probed: Option<Arc<Probed>>,
+}
+
+impl Last {
+    fn shot(&self, index: usize) -> Shot {
+        Shot {
+            frame: Arc::clone(&self.frame),
+            index,
+            scene: Arc::clone(&self.scene),
+            size: [self.view.image.width, self.view.image.height],
+            quantity: self.view.quantity.name.clone(),
+        }
+    }
 }
 
 /// How a pass ended that brought no picture.
@@ -152,7 +166,8 @@ impl Worker {
         let pixels = f64::from(key.image.width) * f64::from(key.image.height);
         self.pace.learn(pixels, divisor, begun.elapsed().as_secs_f64() * 1e3);
         let (frame, view) = (Arc::clone(&job.frame), key.clone());
-        self.last = Some(Last { frame, view, divisor, picture, facts, cells, probed: None });
+        let scene = Arc::new(scene);
+        self.last = Some(Last { frame, view, divisor, scene, picture, facts, cells, probed: None });
         let drawn = Drawn {
             moving: job.moving,
             preparing: (begun - asked).as_secs_f64() * 1e3,
@@ -179,7 +194,7 @@ impl Worker {
     /// Finds out what is wanted beside the last picture and not known yet.
     fn look(&mut self, job: &Job) -> Result<(), Stop> {
         let Some(last) = &self.last else { return Ok(()) };
-        let Looks { cells, probe } = job.looks;
+        let Looks { cells, probe, .. } = job.looks;
         let divisor = last.divisor;
         let needs_cells = cells && last.cells.is_none();
         let probe = probe.filter(|pixel| last.probed.as_ref().is_none_or(|known| known.asked != *pixel));
@@ -208,7 +223,8 @@ impl Worker {
 
     /// Reports the last picture, over the background of `job`.
     fn show(&self, job: &Job, drawn: Option<Drawn>) {
-        let Some(Last { divisor, picture, facts, view, cells, probed, .. }) = &self.last else { return };
+        let Some(last) = &self.last else { return };
+        let Last { divisor, picture, facts, view, cells, probed, .. } = last;
         let shown = Shown {
             index: job.index,
             width: picture.width,
@@ -222,6 +238,7 @@ impl Worker {
             drawn,
             cells: cells.clone().filter(|_| job.looks.cells),
             probed: probed.clone().filter(|probed| job.looks.probe == Some(probed.asked)),
+            shot: job.looks.shot.then(|| last.shot(job.index)),
         };
         self.report(Report::Picture(Box::new(shown)));
     }

@@ -82,7 +82,7 @@ fn a_look_into_the_picture_costs_no_other_picture() {
     let plain = draw(&job);
     assert!(plain.cells.is_none() && plain.probed.is_none());
 
-    job.looks = Looks { cells: true, probe: Some([20, 32]) };
+    job.looks = Looks { cells: true, probe: Some([20, 32]), shot: false };
     let looked = draw(&job);
     assert!(looked.pixels == plain.pixels && looked.stats == plain.stats, "it is the same picture");
     let (cells, probed) = (looked.cells.unwrap(), looked.probed.unwrap());

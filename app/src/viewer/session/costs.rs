@@ -196,6 +196,7 @@ mod tests {
             drawn: Some(Drawn { moving, preparing: 5.0, milliseconds: 20.0 }),
             cells: None,
             probed: None,
+            shot: None,
         }
     }
 

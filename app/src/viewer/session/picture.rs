@@ -77,6 +77,7 @@ impl Session {
             let ([x, y], bundle) = (probed.asked, &probed.bundle);
             self.log(format!("inspected {x},{y} bundle={:?} cells={}", bundle.bundle, bundle.cells.len()));
         }
+        self.looking.set_shot(shown.shot.clone());
         self.picture = Some(PictureFacts {
             index: shown.index,
             divisor: shown.divisor,

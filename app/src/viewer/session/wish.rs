@@ -18,7 +18,8 @@ impl Session {
         if self.without_picture == Some(*index) && self.playback.playing() {
             return None;
         }
-        let looks = Looks { cells: self.overlay.needs_cells(), probe: self.probe };
+        let looks =
+            Looks { cells: self.overlay.needs_cells(), probe: self.probe, shot: self.looking.needs_shot() };
         let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving, looks };
         if job.view.image.width == 0 || job.view.image.height == 0 {
             return None;
