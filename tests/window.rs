@@ -13,6 +13,8 @@ mod files;
 mod harness;
 #[path = "window/sampling.rs"]
 mod sampling;
+#[path = "window/sessions.rs"]
+mod sessions;
 #[path = "window/system.rs"]
 mod system;
 

@@ -48,7 +48,7 @@ enum Done {
     Ranged(FieldRanges),
     Pointed(Box<Pointed>),
     Located(Located),
-    Kept(anyhow::Result<()>),
+    Kept(&'static str, anyhow::Result<()>),
     Adapters(Vec<String>),
 }
 
@@ -294,7 +294,7 @@ impl Desk {
                     self.session.answer(analysis);
                 }
                 Done::Ranged(ranges) => self.take_field_ranges(ranges),
-                Done::Kept(result) => self.written(result),
+                Done::Kept(file, result) => self.written(file, result),
                 Done::Adapters(names) => {
                     if let Some(preferences) = &mut self.preferences {
                         preferences.adapters = Some(names);

@@ -105,7 +105,6 @@ impl Desk {
         }
         self.keeping.next = now + PAUSE;
         self.keeping.written.1 = Some(session.clone());
-        self.session.log("kept session");
         self.write(session);
     }
 
@@ -130,15 +129,16 @@ impl Desk {
         })
     }
 
-    fn write(&mut self, kept: impl Kept + Send + 'static) {
+    fn write<T: Kept + Send + 'static>(&mut self, kept: T) {
         self.keeping.writing = true;
-        self.work(move || Done::Kept(kept.write()));
+        self.work(move || Done::Kept(T::FILE, kept.write()));
     }
 
-    pub(super) fn written(&mut self, result: anyhow::Result<()>) {
+    pub(super) fn written(&mut self, file: &str, result: anyhow::Result<()>) {
         self.keeping.writing = false;
-        if let Err(error) = result {
-            self.session.messages.warn(format!("{error:#}"));
+        match result {
+            Ok(()) => self.session.log(format!("kept {file}")),
+            Err(error) => self.session.messages.warn(format!("{error:#}")),
         }
     }
 

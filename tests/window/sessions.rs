@@ -1,0 +1,63 @@
+//! What outlives the program: the session after a crash, the runs that were open, keys of one's own.
+
+use crate::desktop::eventually;
+use crate::harness::{Window, missing};
+use crate::system::{assert_same, frames};
+
+#[test]
+fn after_a_crash_the_session_is_opened_again_from_the_start_page() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    let mut window = Window::open(folder.path(), &[".", "--size", "120x90"]);
+    // By its name in the palette, found by the beginnings of words.
+    window.key("ctrl+k");
+    window.wait_for_area("palette");
+    window.tool(&["type", "ne fr"]);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    window.key("Return");
+    window.wait_for("picture frame=1");
+    window.drag("picture", [0.3, 0.5], [0.6, 0.4]);
+    window.drag("transfer", [0.0, 0.5], [0.0, 0.2]);
+    let (_, before) = window.save(folder.path());
+    let kept = folder.path().join("home/data/sphcast/session.json");
+    eventually("a session with this view", || {
+        let kept: serde_json::Value = serde_json::from_slice(&std::fs::read(&kept).unwrap()).unwrap();
+        kept["view"]["camera"] == serde_json::to_value(before.camera).unwrap() && kept["frame"] == 1
+    });
+    // Not by its own will: nothing is written on the way.
+    window.program.0.kill().unwrap();
+    drop(window);
+
+    let mut window = Window::open(folder.path(), &[]);
+    window.wait_for_area("last-session");
+    window.click("last-session", [0.3, 0.5]);
+    assert!(window.wait_for("opened").ends_with("frames=2"));
+    window.wait_for("picture frame=1");
+    let (_, after) = window.save(folder.path());
+    assert_same(&after, &before);
+    assert_eq!((after.image.width, after.image.height), (120, 90));
+}
+
+#[test]
+fn keys_of_ones_own_are_there_at_the_next_start() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    let settings = folder.path().join("home/config/sphcast/settings.json");
+    std::fs::create_dir_all(settings.parent().unwrap()).unwrap();
+    let keys = r#"{"keys": [{"action": "step-forward", "keys": ["Ctrl+J"]}]}"#;
+    std::fs::write(&settings, keys).unwrap();
+    let mut window = Window::open(folder.path(), &["."]);
+    window.key("Right");
+    window.key("ctrl+j");
+    window.wait_for("picture frame=1");
+    window.key("ctrl+j");
+    window.wait_for("picture frame=0");
+}
