@@ -19,7 +19,7 @@ fn read(file: &Path) -> Option<Frame> {
         println!("skipped: {} is absent", file.display());
         return None;
     }
-    Some(sphcast::frames::readers::read(file).unwrap_or_else(|error| panic!("{error}")))
+    Some(sphcast::frames::readers::read(file, &Default::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// The frame `data` seen with `view`, both as named in the folder of shared data.

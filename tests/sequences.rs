@@ -57,7 +57,7 @@ fn files_are_sorted_and_other_arguments_keep_their_place() {
         [path("b_1.vtk"), path("a_10.vtk"), path("a_2.vtk"), "demo:radial:8".into(), path("b_1.vtk")];
     let sequence = Sequence::open(&arguments).unwrap();
     assert_eq!(names(&sequence), ["a_2.vtk", "a_10.vtk", "b_1.vtk", "demo:radial:8", "b_1.vtk"]);
-    assert_eq!(sequence.sources()[3].load().unwrap().len(), 8);
+    assert_eq!(sequence.sources()[3].load(&Default::default()).unwrap().len(), 8);
 }
 
 #[test]
@@ -72,8 +72,8 @@ fn a_collection_goes_by_time() {
     let sequence = open(folder.path().join("run.pvd"));
     assert_eq!(names(&sequence), ["y.vtk", "x.vtk"]);
     assert_eq!(sequence.sources()[1].time, Some(2.5));
-    assert_eq!(sequence.sources()[1].load().unwrap().metadata.time, Some(2.5));
-    assert!(sequence.sources()[0].load().is_err(), "y.vtk is not there");
+    assert_eq!(sequence.sources()[1].load(&Default::default()).unwrap().metadata.time, Some(2.5));
+    assert!(sequence.sources()[0].load(&Default::default()).is_err(), "y.vtk is not there");
 
     fs::write(folder.path().join("bad.pvd"), "<VTKFile").unwrap();
     assert!(refusal(folder.path().join("bad.pvd")).contains("bad.pvd: "));

@@ -23,7 +23,9 @@ fn main() -> anyhow::Result<()> {
         bail!("expected three numbers, found {}", numbers.len());
     };
     let sequence = Sequence::open(&[run.into()])?;
-    let load = |source: &std::sync::Arc<sphcast::frames::Source>| source.load().context(source.name.clone());
+    let load = |source: &std::sync::Arc<sphcast::frames::Source>| {
+        source.load(&Default::default()).context(source.name.clone())
+    };
     let frames = sequence.sources().iter().map(load).collect::<Result<Vec<_>, _>>()?;
     // Rounded, so that the third frame is at 0.2 and not at 0.2 and a bit.
     let times = (0..frames.len()).map(|index| (index as f64 * seconds * 1e9).round() / 1e9).collect();

@@ -25,7 +25,8 @@ fn main() -> anyhow::Result<()> {
     (view.image.width, view.image.height) = (width.parse()?, height.parse()?);
     view.sampling.tolerance = Some(tolerance.parse()?);
     view.sampling.always_adaptive = true;
-    let frame = Sequence::open(&[file.into()])?.sources()[0].load().context(file.clone())?;
+    let frame =
+        Sequence::open(&[file.into()])?.sources()[0].load(&Default::default()).context(file.clone())?;
     let particles = Arc::new(scene::particles(&frame, view.particles.support_radius)?);
     let quantity = Arc::new(scene::quantity(&frame, &particles, &view.quantity)?);
     let scene = |view: &View| Scene::new(particles.clone(), quantity.clone(), view);

@@ -73,7 +73,7 @@ pub fn run(arguments: &InfoArguments) -> anyhow::Result<()> {
     let several = sources.len() > 1;
     let (mut infos, mut failed) = (Vec::new(), Vec::new());
     for source in sources {
-        match source.load().with_context(|| source.name.clone()) {
+        match source.load(&Default::default()).with_context(|| source.name.clone()) {
             Ok(frame) => {
                 let info = Info::new(&source.name, &frame);
                 match arguments.json {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::generate::Generated;
 use super::stream::FrameSource;
-use super::{Frame, demo, natural, readers};
+use super::{Frame, Loading, demo, natural, readers};
 use crate::io_error::describe;
 
 /// The frames of a run, in the order in which they are shown.
@@ -189,12 +189,12 @@ impl Sequence {
 }
 
 impl Source {
-    /// Reads the frame. The error does not repeat the name.
-    pub fn load(&self) -> anyhow::Result<Frame> {
+    /// Reads the frame, and tells `loading` how far it is. The error does not repeat the name.
+    pub fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
         let mut frame = match &self.origin {
             Origin::Demo(index) => demo::frame(*index)?,
             Origin::Generated(scene) => scene.frame(),
-            Origin::File(path) => readers::read(path).map_err(|error| match error.place {
+            Origin::File(path) => readers::read(path, loading).map_err(|error| match error.place {
                 Some(place) => anyhow::anyhow!("{}: {place}", error.what),
                 None => anyhow::anyhow!(error.what),
             })?,
@@ -214,8 +214,8 @@ impl Source {
 }
 
 impl FrameSource for Source {
-    fn load(&self) -> anyhow::Result<Frame> {
-        Source::load(self)
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
+        Source::load(self, loading)
     }
 }
 

@@ -8,13 +8,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::thread;
 
-use super::Frame;
+use super::{Cancelled, Frame, Loading};
 
 /// Where one frame comes from.
 pub trait FrameSource: Send + Sync {
     /// Reads the frame; called from a background thread, and again after the frame was dropped from
-    /// the cache. An error is final.
-    fn load(&self) -> anyhow::Result<Frame>;
+    /// the cache. Tells `loading` how far it is. An error is final.
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame>;
 }
 
 /// What is known of a frame.
@@ -72,7 +72,7 @@ struct Slot {
 enum SlotState {
     #[default]
     Empty,
-    Loading,
+    Loading(Arc<Loading>),
     Ready(Arc<Frame>),
     Failed(Arc<str>),
 }
@@ -123,6 +123,27 @@ impl FrameStream {
         self.shared.changed.notify_all();
     }
 
+    /// Bytes read of frame `index` and bytes in all, while it is read.
+    pub fn progress(&self, index: usize) -> Option<[u64; 2]> {
+        match &self.shared.lock().slots.get(index)?.state {
+            SlotState::Loading(loading) => Some(loading.bytes()),
+            _ => None,
+        }
+    }
+
+    /// Ends the reading of frame `index`, which counts as failed.
+    pub fn cancel(&self, index: usize) {
+        let mut state = self.shared.lock();
+        let Some(slot) = state.slots.get_mut(index) else { return };
+        if let SlotState::Loading(loading) = &slot.state {
+            loading.cancel();
+            slot.state = SlotState::Failed(Cancelled.to_string().into());
+        }
+        drop(state);
+        self.shared.changed.notify_all();
+        (self.shared.wake)();
+    }
+
     /// Holds no more than `budget` bytes beside the current frame from now on.
     pub fn limit(&self, budget: usize) {
         let mut state = self.shared.lock();
@@ -136,7 +157,7 @@ impl FrameStream {
     pub fn get(&self, index: usize) -> FrameState {
         self.shared.lock().slots.get(index).map_or(FrameState::NotLoaded, |slot| match &slot.state {
             SlotState::Empty => FrameState::NotLoaded,
-            SlotState::Loading => FrameState::Loading,
+            SlotState::Loading(_) => FrameState::Loading,
             SlotState::Ready(frame) => FrameState::Ready(Arc::clone(frame)),
             SlotState::Failed(why) => FrameState::Failed(Arc::clone(why)),
         })
@@ -154,7 +175,7 @@ impl FrameStream {
             match &state.slots[index].state {
                 SlotState::Ready(frame) => return Ok(Arc::clone(frame)),
                 SlotState::Failed(why) => return Err(Arc::clone(why)),
-                SlotState::Empty | SlotState::Loading => state = self.shared.sleep(state),
+                SlotState::Empty | SlotState::Loading(_) => state = self.shared.sleep(state),
             }
         }
     }
@@ -163,7 +184,7 @@ impl FrameStream {
     pub fn cached(&self) -> Vec<Cached> {
         let cell = |slot: &Slot| match slot.state {
             SlotState::Empty => Cached::No,
-            SlotState::Loading => Cached::Loading,
+            SlotState::Loading(_) => Cached::Loading,
             SlotState::Ready(_) => Cached::Yes,
             SlotState::Failed(_) => Cached::Failed,
         };
@@ -186,6 +207,11 @@ impl Drop for FrameStream {
     fn drop(&mut self) {
         let mut state = self.shared.lock();
         state.stopped = true;
+        for slot in &state.slots {
+            if let SlotState::Loading(loading) = &slot.state {
+                loading.cancel();
+            }
+        }
         // The threads may go on for a while; what the cache holds is free at once.
         state.slots.clear();
         drop(state);
@@ -204,16 +230,19 @@ impl Shared {
     }
 
     fn work(&self) {
-        while let Some(index) = self.next() {
+        while let Some((index, loading)) = self.next() {
             let source = &self.sources[index];
             // A reader that panics must not take the thread, and with it all later frames, along.
-            let frame = catch_unwind(AssertUnwindSafe(|| source.load()))
+            let frame = catch_unwind(AssertUnwindSafe(|| source.load(&loading)))
                 .unwrap_or_else(|_| Err(anyhow::anyhow!("reading it failed in an unforeseen way")));
             let mut state = self.lock();
             if state.stopped {
                 return;
             }
-            state.finish(index, frame);
+            // Whoever cancelled it does not wait for the reader to notice.
+            if !loading.is_cancelled() {
+                state.finish(index, frame);
+            }
             drop(state);
             self.changed.notify_all();
             (self.wake)();
@@ -221,15 +250,16 @@ impl Shared {
     }
 
     /// Waits for a frame worth reading; `None` once the stream is gone.
-    fn next(&self) -> Option<usize> {
+    fn next(&self) -> Option<(usize, Arc<Loading>)> {
         let mut state = self.lock();
         loop {
             if state.stopped {
                 return None;
             }
             if let Some(index) = state.choose() {
-                state.slots[index].state = SlotState::Loading;
-                return Some(index);
+                let loading = Arc::new(Loading::default());
+                state.slots[index].state = SlotState::Loading(Arc::clone(&loading));
+                return Some((index, loading));
             }
             state = self.sleep(state);
         }
@@ -305,7 +335,7 @@ impl State {
                     }
                 }
                 _ if current => {}
-                SlotState::Loading => taken += self.expected(index).unwrap_or(0),
+                SlotState::Loading(_) => taken += self.expected(index).unwrap_or(0),
                 _ => taken += self.held(index),
             }
         }

@@ -22,7 +22,8 @@ impl Fake {
 }
 
 impl FrameSource for Fake {
-    fn load(&self) -> anyhow::Result<Frame> {
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
+        loading.begin(self.rows as u64);
         self.loads.fetch_add(1, Ordering::SeqCst);
         drop(self.gate.lock().unwrap());
         match self.fault {
@@ -110,6 +111,21 @@ fn a_bad_frame_is_marked_once_and_skipped() {
     stream.request(1);
     assert!(stream.wait(1).is_err());
     assert_eq!(fakes[1].loads.load(Ordering::SeqCst), 1);
+}
+
+#[test]
+fn reading_that_is_cancelled_fails_at_once_and_is_not_taken_up_again() {
+    let fakes = fakes(1, 100);
+    let gate = Arc::clone(&fakes[0].gate);
+    let held = gate.lock().unwrap();
+    let stream = stream(&fakes, 12_000);
+    eventually("the reading", || stream.progress(0) == Some([0, 100]));
+    stream.cancel(0);
+    assert!(matches!(stream.get(0), FrameState::Failed(why) if why.contains("cancelled")));
+    drop(held);
+    thread::sleep(Duration::from_millis(30));
+    assert!(matches!(stream.get(0), FrameState::Failed(_)), "what comes late is not wanted");
+    assert_eq!(fakes[0].loads.load(Ordering::SeqCst), 1);
 }
 
 #[test]

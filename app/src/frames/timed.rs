@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use super::{Frame, FrameSource};
+use super::{Frame, FrameSource, Loading};
 
 /// A source with a stop-watch.
 pub struct Timed {
@@ -29,9 +29,9 @@ impl Timed {
 }
 
 impl FrameSource for Timed {
-    fn load(&self) -> anyhow::Result<Frame> {
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
         let start = Instant::now();
-        let frame = self.source.load();
+        let frame = self.source.load(loading);
         self.microseconds.store(start.elapsed().as_micros() as u64, Ordering::Relaxed);
         frame
     }

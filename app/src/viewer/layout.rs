@@ -13,7 +13,6 @@ use super::panels::{
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
-use super::task::Task;
 use super::{theme, widgets};
 
 /// Shows the window's contents. Returns the room for the picture, in physical pixels.
@@ -120,6 +119,7 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
             parts.push(format!("Sampling anew, {:.0} %", 100.0 * share));
         }
         (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
+        (None, None) if desk.session.awaits_picture() => parts.push("Preparing the particles…".to_owned()),
         _ => {}
     }
     if let Some(text) = nothing(desk) {
@@ -159,20 +159,31 @@ fn nothing(desk: &Desk) -> Option<String> {
 }
 
 /// What is drawn in the background: pictures on their way to files, and a measurement.
-fn tasks(ui: &mut Ui, desk: &Desk, outer: Rect) {
+fn tasks(ui: &mut Ui, desk: &mut Desk, outer: Rect) {
     let mut row = 0;
-    for export in &desk.exports {
-        let name = export.path.file_name().unwrap_or_default().to_string_lossy();
-        card(ui, outer, row, &format!("Saving {name}"), &export.task);
+    if let Some([read, total]) = desk.session.reading() {
+        let title = format!("Reading {} of {}", widgets::bytes(read.min(total)), widgets::bytes(total));
+        if card(ui, outer, row, &title, read as f32 / total as f32) {
+            desk.session.cancel_reading();
+        }
         row += 1;
     }
-    if let Some(Measurement { state: State::Running(task), .. }) = &desk.measurement {
-        card(ui, outer, row, "Measuring the error", task);
+    for export in &desk.exports {
+        let name = export.path.file_name().unwrap_or_default().to_string_lossy();
+        if card(ui, outer, row, &format!("Saving {name}"), export.task.share()) {
+            export.task.cancel();
+        }
+        row += 1;
+    }
+    if let Some(Measurement { state: State::Running(task), .. }) = &desk.measurement
+        && card(ui, outer, row, "Measuring the error", task.share())
+    {
+        task.cancel();
     }
 }
 
-/// How far a task is, and a button to cancel it.
-fn card<T: Send + 'static>(ui: &mut Ui, outer: Rect, row: usize, title: &str, task: &Task<T>) {
+/// How far something is, and a button to cancel it. Returns whether that was pressed.
+fn card(ui: &mut Ui, outer: Rect, row: usize, title: &str, share: f32) -> bool {
     let width = 300.0_f32.min(outer.width() - 24.0);
     let top = outer.top() + 12.0 + 58.0 * row as f32;
     let corner = egui::pos2(outer.right() - width - 12.0, top);
@@ -181,13 +192,14 @@ fn card<T: Send + 'static>(ui: &mut Ui, outer: Rect, row: usize, title: &str, ta
     ui.scope_builder(egui::UiBuilder::new().max_rect(place.shrink(8.0)), |ui| {
         ui.add(egui::Label::new(RichText::new(title).small()).truncate());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
-            if ui.small_button("Cancel").clicked() {
-                task.cancel();
-            }
-            let bar = egui::ProgressBar::new(task.share()).desired_height(8.0);
+            let cancelled = ui.small_button("Cancel").clicked();
+            let bar = egui::ProgressBar::new(share.min(1.0)).desired_height(8.0);
             ui.centered_and_justified(|ui| ui.add(bar.fill(theme::ACCENT)));
-        });
-    });
+            cancelled
+        })
+        .inner
+    })
+    .inner
 }
 
 /// Says what happens to files that hover over the window.

@@ -154,7 +154,7 @@ mod tests {
             return;
         }
         let sequence = Sequence::open(&[PathBuf::from("demo:radial:1000")]).unwrap();
-        let frame = Arc::new(sequence.sources()[0].load().unwrap());
+        let frame = Arc::new(sequence.sources()[0].load(&Default::default()).unwrap());
         let mut view = View::default();
         (view.image.width, view.image.height) = (96, 64);
         view.sampling.tolerance = Some(0.02);
@@ -177,7 +177,7 @@ mod tests {
         view.sampling.tolerance = Some(0.01);
         assert!(!measurement.is_of(&frame, &view));
         view.sampling.tolerance = Some(0.02);
-        let other = Arc::new(sequence.sources()[0].load().unwrap());
+        let other = Arc::new(sequence.sources()[0].load(&Default::default()).unwrap());
         assert!(!measurement.is_of(&other, &view));
     }
 }

@@ -89,6 +89,11 @@ pub struct Session {
 /// How long after the last change the picture counts as moving.
 const SETTLE: Duration = Duration::from_millis(200);
 
+/// Bytes of a file that nobody waits for without being told how long.
+const LARGE_FILE: u64 = 64 << 20;
+/// How often its progress is looked at.
+const GLANCE: Duration = Duration::from_millis(100);
+
 impl Session {
     pub fn new(view: View) -> Session {
         let mut session = Session {
@@ -191,6 +196,25 @@ impl Session {
         let index = self.playback.index();
         let here = self.frame.as_ref().is_some_and(|(frame, _)| *frame == index);
         self.run.is_some() && !here && self.trouble().is_none()
+    }
+
+    /// Whether the first picture of the frame in view is still to come.
+    pub fn awaits_picture(&self) -> bool {
+        let failed = |(index, _): &(usize, Arc<Frame>)| self.without_picture == Some(*index);
+        self.picture.is_none() && self.frame.as_ref().is_some_and(|frame| !failed(frame))
+    }
+
+    /// Bytes read of the frame at the playhead and bytes in all, while one that takes a while is read.
+    pub fn reading(&self) -> Option<[u64; 2]> {
+        let large = |bytes: &[u64; 2]| bytes[1] >= LARGE_FILE;
+        self.run.as_ref()?.stream.progress(self.playback.index()).filter(large)
+    }
+
+    /// Gives up reading the frame at the playhead.
+    pub fn cancel_reading(&mut self) {
+        if let Some(run) = &self.run {
+            run.stream.cancel(self.playback.index());
+        }
     }
 
     /// Says that something moves, so that the next pictures must be quick.
@@ -340,7 +364,9 @@ impl Session {
     /// When to look again although nothing happens.
     pub fn due(&self, now: Instant) -> Option<Instant> {
         let settled = self.moving_until.filter(|until| now < *until);
-        [settled, self.playback.due(), self.messages.due(), self.step_due()].into_iter().flatten().min()
+        let reading = self.reading().map(|_| now + GLANCE);
+        let own = [self.playback.due(), self.messages.due(), self.step_due()];
+        own.into_iter().chain([settled, reading]).flatten().min()
     }
 
     pub fn log(&mut self, event: impl Into<String>) {

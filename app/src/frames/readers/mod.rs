@@ -26,24 +26,27 @@ mod xyz;
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
+use std::sync::Arc;
 
-use super::Frame;
+use super::{Counted, Frame, Loading};
 pub use error::{Fault, Place, ReadError};
 use format::Format;
 
-/// Reads one frame, and what the sidecars beside it add.
-pub fn read(path: &Path) -> Result<Frame, ReadError> {
-    let mut frame = read_file(path).map_err(|fault| fault.in_file(path))?;
+/// Reads one frame, and what the sidecars beside it add. Tells `loading` how far it is.
+pub fn read(path: &Path, loading: &Arc<Loading>) -> Result<Frame, ReadError> {
+    let mut frame = read_file(path, loading).map_err(|fault| fault.in_file(path))?;
     sidecar::apply(path, &mut frame);
     Ok(frame)
 }
 
-fn read_file(path: &Path) -> Result<Frame, Fault> {
+fn read_file(path: &Path, loading: &Arc<Loading>) -> Result<Frame, Fault> {
     let unreadable = |error: std::io::Error| Fault::new(format!("cannot be read: {error}"));
     // Opening a pipe would wait for its other end.
-    if !path.metadata().map_err(unreadable)?.is_file() {
+    let about = path.metadata().map_err(unreadable)?;
+    if !about.is_file() {
         return Err(Fault::new("not a file"));
     }
+    loading.begin(about.len());
     let mut file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     (&mut file).take(format::HEAD).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -52,9 +55,9 @@ fn read_file(path: &Path) -> Result<Frame, Fault> {
     })?;
     if format == Format::Hdf5 {
         file.rewind().map_err(unreadable)?;
-        return hdf5::parse_file(file);
+        return hdf5::parse_file(file, loading);
     }
-    file.read_to_end(&mut bytes).map_err(unreadable)?;
+    Counted { inner: file, loading }.read_to_end(&mut bytes).map_err(unreadable)?;
     parse(format, &bytes)
 }
 

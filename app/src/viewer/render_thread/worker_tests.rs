@@ -17,7 +17,7 @@ fn worker() -> Option<(Worker, Arc<Frame>, mpsc::Receiver<Report>)> {
         return None;
     }
     let sequence = Sequence::open(&[PathBuf::from("demo:radial:27")]).unwrap();
-    let frame = Arc::new(sequence.sources()[0].load().unwrap());
+    let frame = Arc::new(sequence.sources()[0].load(&Default::default()).unwrap());
     let (sender, reports) = mpsc::channel();
     let worker = Worker::new(Arc::default(), sender, Arc::new(|| {}), GpuOptions::default());
     Some((worker, frame, reports))

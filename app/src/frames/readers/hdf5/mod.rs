@@ -9,15 +9,34 @@ use std::fs::File;
 use std::sync::Arc;
 
 use hdf5_reader::FileStorage;
+use hdf5_reader::storage::{Storage, StorageBuffer};
 
 use super::error::Fault;
-use crate::frames::Frame;
+use crate::frames::{Frame, Loading};
 use store::Store;
 
 /// Reads a file piece by piece: a snapshot may be far larger than its gas.
-pub fn parse_file(file: File) -> Result<Frame, Fault> {
+pub fn parse_file(file: File, loading: &Arc<Loading>) -> Result<Frame, Fault> {
     let storage = FileStorage::from_file(file).map_err(|error| Fault::new(error.to_string()))?;
-    parse_store(&Store::open(Arc::new(storage))?)
+    let counted = CountedStorage { inner: storage, loading: Arc::clone(loading) };
+    parse_store(&Store::open(Arc::new(counted))?)
+}
+
+/// A file whose pieces are counted.
+struct CountedStorage {
+    inner: FileStorage,
+    loading: Arc<Loading>,
+}
+
+impl Storage for CountedStorage {
+    fn len(&self) -> u64 {
+        self.inner.len()
+    }
+
+    fn read_range(&self, offset: u64, len: usize) -> hdf5_reader::error::Result<StorageBuffer> {
+        self.loading.advance(len as u64).map_err(std::io::Error::other)?;
+        self.inner.read_range(offset, len)
+    }
 }
 
 fn parse_store(store: &Store) -> Result<Frame, Fault> {
