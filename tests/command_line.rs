@@ -245,3 +245,29 @@ fn a_picture_is_written_whole_or_not_at_all() {
     assert_eq!(unknown.error(), "one.vtk: there is no field `dye`; there are: concentration");
     assert_eq!(files_in(folder.path()), ["one.vtk", "run", "taken.png"]);
 }
+
+#[test]
+fn another_field_decides_the_opacity() {
+    let folder = folder();
+    let mut text = String::from("x,y,z,velocity,density\n");
+    for i in 0..125_u32 {
+        let [x, y, z] = [i % 5, i / 5 % 5, i / 25];
+        text += &format!("{x},{y},{z},{},{}\n", f64::from(x) / 4.0, 1000 + y);
+    }
+    fs::write(folder.path().join("fluid.csv"), text).unwrap();
+    let quantity =
+        r#"{"quantity": {"name": "velocity", "opacity": {"name": "density", "range": [1000, 1004]}}}"#;
+    fs::write(folder.path().join("view.json"), quantity).unwrap();
+    let picture = |flags: &[&str]| {
+        let flags = [&["render", "fluid.csv", "--size", "24x24", "--out", "a.png"], flags].concat();
+        let outcome = sphcast(folder.path(), &flags);
+        assert_eq!(outcome.status, 0, "{}", outcome.err);
+        image::open(folder.path().join("a.png")).unwrap().into_rgba8()
+    };
+    let one = picture(&["--quantity", "velocity"]);
+    let both = picture(&["--quantity", "velocity", "--opacity-by", "density"]);
+    assert_eq!(both, picture(&["--view", "view.json"]));
+    assert_ne!(both, one);
+    let unknown = sphcast(folder.path(), &["render", "fluid.csv", "--opacity-by", "dye", "--out", "a.png"]);
+    assert_eq!(unknown.error(), "fluid.csv: there is no field `dye`; there are: velocity, density");
+}

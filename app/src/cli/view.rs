@@ -32,6 +32,9 @@ pub struct ShownArguments {
     /// Field to show: its name, `velocity` for a length, `velocity.x` for a component
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
+    /// Field that decides the opacity, where that is another one than the field to show
+    #[arg(long, value_name = "NAME")]
+    pub opacity_by: Option<String>,
     /// Radius at which the kernel reaches zero, in the unit of the run
     #[arg(long, value_name = "H", value_parser = length)]
     pub support_radius: Option<f64>,
@@ -71,6 +74,9 @@ impl ShownArguments {
         }
         view.sampling.relaxation = self.relaxation.unwrap_or(view.sampling.relaxation);
         view.quantity.name = self.quantity.clone().or(view.quantity.name);
+        if let Some(name) = &self.opacity_by {
+            view.quantity.opacity.get_or_insert_default().name = Some(name.clone());
+        }
         view.particles.support_radius = self.support_radius.or(view.particles.support_radius);
         view.particles.kernel = self.kernel.unwrap_or(view.particles.kernel);
         Ok(view)

@@ -174,6 +174,11 @@ impl Film {
                 "note: colours span the values of each frame; a view with quantity.range keeps them steady",
             );
         }
+        if self.view.quantity.opacity.as_ref().is_some_and(|opacity| opacity.range.is_none()) {
+            self.say(
+                "note: opacities span the values of each frame; a view with quantity.opacity.range keeps them steady",
+            );
+        }
         Ok(())
     }
 

@@ -19,6 +19,8 @@ pub struct Question {
     pub quantity: Option<String>,
     /// The range that the bars divide; the frame's own where it is `None`.
     pub range: Option<[f64; 2]>,
+    /// The name of the field that decides the opacity, where that is another one.
+    pub opacity: Option<Option<String>>,
 }
 
 /// What was counted.
@@ -32,12 +34,16 @@ pub struct Analysis {
     pub range: Option<[f64; 2]>,
     /// Particles in each bar; those outside the range are in none.
     pub bars: Vec<u64>,
+    /// The field that decides the opacity, and its extremes.
+    pub opacity: Option<(Option<String>, Option<[f64; 2]>)>,
 }
 
 impl Question {
     /// Whether `answer` is the answer to this question.
     pub fn is_answered_by(&self, answer: &Analysis) -> bool {
-        self.index == answer.index && self.quantity == answer.quantity && self.range == answer.range
+        let opacity = answer.opacity.as_ref().map(|(name, _)| name);
+        let same_fields = self.quantity == answer.quantity && self.opacity.as_ref() == opacity;
+        self.index == answer.index && same_fields && self.range == answer.range
     }
 
     /// Counts, on all threads. A quantity that the frame lacks has an empty answer.
@@ -48,19 +54,19 @@ impl Question {
             extremes: None,
             range: self.range,
             bars: vec![0; BARS],
+            opacity: self.opacity.clone().map(|name| {
+                let selection = Selection::new(&self.frame, name.as_deref());
+                let extremes = selection.ok().and_then(|selection| extremes(&self.frame, &selection));
+                (name, extremes)
+            }),
         };
         let Ok(selection) = Selection::new(&self.frame, self.quantity.as_deref()) else { return analysis };
         let rows = || {
             (0..self.frame.len()).into_par_iter().map(|row| selection.value(row)).filter(|q| q.is_finite())
         };
-        let [low, high] = rows()
-            .fold(|| NOTHING, |[low, high], q| [low.min(q), high.max(q)])
-            .reduce(|| NOTHING, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-        if low > high {
-            return analysis;
-        }
-        analysis.extremes = Some([low, high]);
-        let [low, high] = self.range.unwrap_or([low, high]);
+        analysis.extremes = extremes(&self.frame, &selection);
+        let Some(extremes) = analysis.extremes else { return analysis };
+        let [low, high] = self.range.unwrap_or(extremes);
         let width = high - low;
         let bar = |q: f64| match width > 0.0 {
             true => ((q - low) / width * BARS as f64) as usize,
@@ -82,6 +88,17 @@ impl Question {
 
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
+/// Finite minimum and maximum over a frame.
+fn extremes(frame: &Frame, selection: &Selection) -> Option<[f64; 2]> {
+    let [low, high] = (0..frame.len())
+        .into_par_iter()
+        .map(|row| selection.value(row))
+        .filter(|q| q.is_finite())
+        .fold(|| NOTHING, |[low, high], q| [low.min(q), high.max(q)])
+        .reduce(|| NOTHING, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    (low <= high).then_some([low, high])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,7 +108,7 @@ mod tests {
         let positions = Column::new(3, vec![0.0; 3 * values.len()]).unwrap();
         let field = Field { name: "q".into(), column: Column::scalars(values.to_vec()) };
         let frame = Frame::new(positions, vec![field], Metadata::default()).unwrap();
-        Question { index: 3, frame: Arc::new(frame), quantity: Some("q".into()), range }
+        Question { index: 3, frame: Arc::new(frame), quantity: Some("q".into()), range, opacity: None }
     }
 
     #[test]
@@ -102,6 +119,17 @@ mod tests {
         assert_eq!((analysis.bars[0], analysis.bars[BARS / 2], analysis.bars[BARS - 1]), (1, 1, 1));
         assert_eq!(analysis.bars.iter().sum::<u64>(), 3);
         assert!(question.is_answered_by(&analysis));
+    }
+
+    #[test]
+    fn the_field_of_the_opacity_has_extremes_too() {
+        let mut question = question(&[0.0, 0.5, 1.0], Some([0.0, 0.5]));
+        question.opacity = Some(Some("q".into()));
+        let answer = question.answer();
+        assert_eq!(answer.opacity, Some((Some("q".into()), Some([0.0, 1.0]))));
+        assert!(question.is_answered_by(&answer));
+        question.opacity = None;
+        assert!(!question.is_answered_by(&answer));
     }
 
     #[test]

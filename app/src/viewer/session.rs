@@ -4,6 +4,7 @@ mod costs;
 mod history;
 mod looking;
 mod picture;
+mod range;
 mod space;
 mod wish;
 
@@ -27,17 +28,7 @@ pub use costs::{Costs, Entry, Stage};
 use history::History;
 pub use looking::{Looking, Tool};
 pub use picture::PictureFacts;
-
-/// Where the range of the transfer function comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RangeSource {
-    /// The finite extremes of the frame in view.
-    Frame,
-    /// The extremes of all frames that were in view: colours do not jump from frame to frame.
-    Seen,
-    /// What the view says.
-    Fixed,
-}
+pub use range::RangeSource;
 
 pub struct Session {
     run: Option<Run>,
@@ -48,6 +39,8 @@ pub struct Session {
     pub playback: Playback,
     pub messages: Messages,
     pub range_source: RangeSource,
+    /// The same of the field that decides the opacity, where that is another one.
+    pub opacity_source: RangeSource,
     /// Whether the image has the size that it has in the window.
     pub fits_window: bool,
     /// The last frame that was read at the playhead.
@@ -103,6 +96,7 @@ impl Session {
             playback: Playback::new(0),
             messages: Messages::default(),
             range_source: RangeSource::Frame,
+            opacity_source: RangeSource::Frame,
             fits_window: true,
             frame: None,
             picture: None,
@@ -132,9 +126,9 @@ impl Session {
     /// Shows another run, from its first frame on. Keeps what is not about the run itself.
     pub fn open(&mut self, run: Run) {
         let first = self.run.is_none();
-        if run.stream.len() > 1 && self.range_source == RangeSource::Frame {
+        if run.stream.len() > 1 {
             // Colours that jump from frame to frame hide what changes.
-            self.range_source = RangeSource::Seen;
+            self.range_sources().into_iter().for_each(RangeSource::steady);
         }
         self.playback = self.playback.restarted(run.stream.len());
         self.log(format!("opened {} frames={}", run.title, run.stream.len()));
@@ -153,11 +147,7 @@ impl Session {
             self.view.particles.support_radius = None;
             self.view.select = SelectView::default();
             self.view.transfer.reference_length = None;
-            self.view.quantity.range = None;
-            self.range_source = match self.range_source {
-                RangeSource::Fixed => RangeSource::Frame,
-                other => other,
-            };
+            self.forget_ranges();
         }
     }
 
@@ -167,8 +157,8 @@ impl Session {
             (Some(camera), Some(given)) if given.is_settled() => camera.adopt(given),
             _ => self.camera = None,
         }
-        let ranged = view.quantity.range.is_some();
-        self.range_source = if ranged { RangeSource::Fixed } else { RangeSource::Frame };
+        self.range_source = RangeSource::of(view.quantity.range);
+        self.opacity_source = RangeSource::of(view.quantity.opacity.as_ref().and_then(|field| field.range));
         let size = [view.image.width, view.image.height];
         self.fits_window = self.fits_window && (self.room == [0, 0] || size == self.room);
         self.view = view;
@@ -320,23 +310,18 @@ impl Session {
             frame: Arc::clone(frame),
             quantity: self.view.quantity.name.clone(),
             range: self.complete_view().quantity.range,
+            opacity: self.opacity_field(),
         };
         let known = self.analysis.as_ref().is_some_and(|answer| question.is_answered_by(answer));
         (!known).then_some(question)
     }
 
     pub fn answer(&mut self, analysis: Analysis) {
-        if let Some([low, high]) = analysis.extremes {
-            let seen = self.seen.entry(analysis.quantity.clone()).or_insert([low, high]);
-            *seen = [seen[0].min(low), seen[1].max(high)];
+        self.see(&analysis.quantity, analysis.extremes);
+        if let Some((field, extremes)) = &analysis.opacity {
+            self.see(field, *extremes);
         }
         self.analysis = Some(analysis);
-    }
-
-    /// The range in effect, where it is known.
-    pub fn range(&self) -> Option<[f64; 2]> {
-        let extremes = || self.analysis.as_ref().and_then(|analysis| analysis.extremes);
-        self.complete_view().quantity.range.or_else(extremes)
     }
 
     /// Puts the whole run, as far as it was seen, in view.

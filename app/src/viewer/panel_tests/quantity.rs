@@ -1,8 +1,10 @@
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use renderer::OpacityView;
 
 use super::{count, fluid, panel};
 use crate::viewer::panels::quantity;
-use crate::viewer::session::RangeSource;
+use crate::viewer::session::{RangeSource, Session};
 
 #[test]
 fn a_field_is_chosen_from_the_menu() {
@@ -10,7 +12,7 @@ fn a_field_is_chosen_from_the_menu() {
         quantity::show(ui, session);
         count(session);
     });
-    harness.get_by_role(egui::accesskit::Role::ComboBox).click();
+    harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Field").click();
     harness.run();
     harness.get_by_label("velocity.x").click();
     harness.run();
@@ -25,4 +27,66 @@ fn a_fixed_range_is_the_one_in_effect_until_it_is_edited() {
     harness.run();
     assert_eq!(harness.state().range_source, RangeSource::Fixed);
     assert_eq!(harness.state().view.quantity.range, before);
+}
+
+/// The panel after `name` was chosen in the menu of the opacity.
+fn with_opacity_by<'a>(name: &str) -> Harness<'a, Session> {
+    let mut harness = panel(fluid(), |ui, session| {
+        quantity::show(ui, session);
+        count(session);
+    });
+    harness.get_by_label("Opacity by").click();
+    harness.run();
+    harness.get_by_label(name).click();
+    harness.run();
+    harness
+}
+
+#[test]
+fn another_field_decides_the_opacity() {
+    let mut harness = with_opacity_by("density");
+    let opacity = |harness: &Harness<Session>| harness.state().view.quantity.opacity.clone();
+    let density = OpacityView { name: Some("density".into()), range: None };
+    assert_eq!(opacity(&harness), Some(density.clone()));
+    assert_eq!(harness.state().opacity_range(), Some([1000.0, 1030.0]));
+    harness.get_by_label(
+        "Along the transfer function, colours and histogram are of velocity, opacities of density.",
+    );
+    // Its range is its own.
+    harness.get_all_by_label("Fixed").last().unwrap().click();
+    harness.run();
+    assert_eq!(harness.state().range_source, RangeSource::Frame);
+    assert_eq!(harness.state().opacity_source, RangeSource::Fixed);
+    assert_eq!(opacity(&harness), Some(OpacityView { range: Some([1000.0, 1030.0]), ..density }));
+    // And back to one field.
+    harness.get_by_label("Opacity by").click();
+    harness.run();
+    harness.get_by_label("the same field").click();
+    harness.run();
+    assert_eq!(opacity(&harness), None);
+    assert!(harness.query_by_label("Highest value of the opacity").is_none());
+}
+
+#[test]
+fn numbers_of_the_opacity_leave_the_colour_alone() {
+    let mut harness = with_opacity_by("velocity.x");
+    let before = harness.state().complete_view().quantity;
+    harness.get_by_label("Highest value of the opacity").click();
+    harness.run();
+    harness.get_by_label("Highest value of the opacity").type_text("2");
+    harness.key_press(egui::Key::Enter);
+    harness.run();
+    let after = harness.state().complete_view().quantity;
+    assert_eq!(after.opacity.unwrap().range, Some([0.0, 2.0]));
+    assert_eq!((after.name, after.range), (before.name, before.range));
+}
+
+#[test]
+fn opacities_of_a_sequence_keep_the_range_of_all_frames_seen() {
+    let mut harness = with_opacity_by("density");
+    let session = harness.state_mut();
+    session.opacity_source = RangeSource::Seen;
+    assert_eq!(session.complete_view().quantity.opacity.unwrap().range, Some([1000.0, 1030.0]));
+    session.adopt(session.complete_view());
+    assert_eq!(session.opacity_source, RangeSource::Fixed);
 }

@@ -17,7 +17,11 @@ const COLUMNS: [(&str, f32, &str); 7] = [
     ("Depth", 140.0, "View depths where the cell begins and ends"),
     ("Class", 154.0, "What became of the cell"),
     ("Particles", 284.0, "Particles in the cell"),
-    ("u", 386.0, "Bounds of the quantity in its range, over all samples of the cell"),
+    (
+        "u",
+        386.0,
+        "Bounds of the quantity in its range, over all samples of the cell; where two fields are in view, of that of the opacity",
+    ),
     (
         "Bricks",
         428.0,

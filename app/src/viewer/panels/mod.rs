@@ -17,6 +17,7 @@ pub mod inspector_table;
 pub mod legend;
 pub mod measured_error;
 pub mod messages;
+pub mod opacity;
 pub mod overlay_legend;
 pub mod palette;
 pub mod particles;

@@ -41,6 +41,10 @@ impl SamplingPanel {
             widgets::row(ui, "Quick choice", |ui| widgets::choice(ui, tolerance, &CHOICES));
             self.tolerance = *tolerance;
             bound(ui, &mut sampling.bound);
+            if sampling.bound == Bound::Paper && session.view.quantity.opacity.is_some() {
+                let text = "The interval bound knows one field: with another one for the opacity, all is sampled in full.";
+                ui.label(RichText::new(text).small().color(theme::WARNING));
+            }
             super_pixels(ui, &mut sampling.super_pixels);
             levels(ui, &mut sampling.z_adaptive);
             always_adaptive(ui, &mut sampling.always_adaptive);

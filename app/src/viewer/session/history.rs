@@ -21,7 +21,7 @@ const REST: Duration = Duration::from_millis(400);
 struct Moment {
     view: View,
     camera: Option<OrbitCamera>,
-    range_source: RangeSource,
+    range_sources: [RangeSource; 2],
     fits_window: bool,
 }
 
@@ -39,7 +39,7 @@ impl Moment {
         Moment {
             view,
             camera: session.camera,
-            range_source: session.range_source,
+            range_sources: [session.range_source, session.opacity_source],
             fits_window: session.fits_window,
         }
     }
@@ -47,7 +47,7 @@ impl Moment {
     fn is_same(&self, other: &Moment) -> bool {
         let camera = |moment: &Moment| moment.camera.map(OrbitCamera::to_view);
         self.view == other.view
-            && self.range_source == other.range_source
+            && self.range_sources == other.range_sources
             && self.fits_window == other.fits_window
             && camera(self) == camera(other)
     }
@@ -59,7 +59,7 @@ impl Moment {
             (session.view.image.width, session.view.image.height) = size;
         }
         session.camera = self.camera.or(session.camera);
-        session.range_source = self.range_source;
+        [session.range_source, session.opacity_source] = self.range_sources;
         session.fits_window = self.fits_window;
     }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use renderer::{AnnotationsView, View};
 
-use super::{RangeSource, Session};
+use super::Session;
 use crate::viewer::render_thread::{Job, Looks};
 
 impl Session {
@@ -93,11 +93,11 @@ impl Session {
         if self.fits_window && self.room != [0, 0] {
             [view.image.width, view.image.height] = self.room;
         }
-        view.quantity.range = match self.range_source {
-            RangeSource::Frame => None,
-            RangeSource::Seen => self.seen.get(&self.view.quantity.name).copied(),
-            RangeSource::Fixed => self.view.quantity.range,
-        };
+        let quantity = &self.view.quantity;
+        view.quantity.range = self.settled_range(self.range_source, &quantity.name, quantity.range);
+        if let (Some(opacity), Some(field)) = (&mut view.quantity.opacity, self.opacity_field()) {
+            opacity.range = self.settled_range(self.opacity_source, &field, opacity.range);
+        }
         view
     }
 }
