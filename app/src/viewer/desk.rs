@@ -106,6 +106,7 @@ impl Desk {
         let mut session = Session::new(options.view);
         session.fits_window = !options.fixed_size;
         let (keeping, troubles) = Keeping::read();
+        session.budget = keeping.settings.budget.sound();
         let gpu = keeping.settings.gpu(&options.gpu);
         let crashed = keeping.last.as_ref().is_some_and(|last| !last.ended);
         let mut desk = Desk {
@@ -179,6 +180,10 @@ impl Desk {
         self.look_closer();
         // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
         self.due = self.session.due(now);
+        // Once, and not at every step of a drag.
+        if !ui.input(|input| input.pointer.any_down()) {
+            self.keeping.settings.budget = self.session.budget;
+        }
         self.keep(now);
         self.tell(ui.ctx());
     }

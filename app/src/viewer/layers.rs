@@ -123,6 +123,7 @@ mod tests {
             full: [8, 8],
             divisor: 1,
             sampling: SamplingView { tolerance: Some(0.008), ..SamplingView::default() },
+            wished: Some(0.008),
             stats: Stats::default(),
             facts: Facts::default(),
             drawn: None,

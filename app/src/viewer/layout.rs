@@ -6,6 +6,7 @@ use super::desk::Desk;
 use super::measurement::{Measurement, State};
 use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
+use super::panels::sampling::plain;
 use super::panels::toolbar::Modes;
 use super::panels::{
     annotations, camera, cells, distance, help, image, measured_error, messages, overlay_legend, particles,
@@ -114,13 +115,18 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
             };
             parts.push(format!("1/{} resolution{refining}", picture.divisor));
         }
-        (None, Some(picture)) if picture.sampling != desk.session.view.sampling => {
+        (None, Some(picture))
+            if picture.raised().is_none() && picture.sampling != desk.session.view.sampling =>
+        {
             let share = desk.render.share().unwrap_or(0.0);
             parts.push(format!("Sampling anew, {:.0} %", 100.0 * share));
         }
         (None, None) if desk.render.share().is_some() => parts.push("Drawing…".to_owned()),
         (None, None) if desk.session.awaits_picture() => parts.push("Preparing the particles…".to_owned()),
         _ => {}
+    }
+    if let Some((raised, own)) = picture.and_then(|picture| picture.raised().zip(picture.wished)) {
+        parts.push(format!("Tolerance {} while moving, {own} at rest", plain(raised)));
     }
     if let Some(text) = nothing(desk) {
         let galley = ui.painter().layout(

@@ -9,6 +9,7 @@
 mod analysis;
 mod annotations;
 mod brush;
+mod budget;
 mod desk;
 mod dialogs;
 mod error_map;

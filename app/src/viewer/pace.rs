@@ -31,6 +31,11 @@ impl Pace {
         self.budget
     }
 
+    /// Changes the milliseconds that a moving picture may take.
+    pub fn set_budget(&mut self, milliseconds: f64) {
+        self.budget = milliseconds;
+    }
+
     /// Takes note that a picture of `pixels` full size, drawn at 1/`divisor`, took `milliseconds`.
     pub fn learn(&mut self, pixels: f64, divisor: u32, milliseconds: f64) {
         let growth = pixels.max(1.0) / self.pixels;

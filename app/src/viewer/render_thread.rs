@@ -16,6 +16,7 @@ use renderer::{CellMap, GpuOptions, SamplingView, Stats, View};
 use crate::frames::Frame;
 
 use super::Wake;
+use super::budget::Budget;
 use super::pointing::Shot;
 use super::prepare::Facts;
 use super::probe::Probed;
@@ -31,6 +32,8 @@ pub struct Job {
     pub view: View,
     /// Whether another job will follow soon: one quick picture is enough.
     pub moving: bool,
+    /// What such a picture may take.
+    pub budget: Budget,
     pub looks: Looks,
 }
 
@@ -55,7 +58,10 @@ pub struct Shown {
     /// Size at full resolution, and what it was divided by.
     pub full: [u32; 2],
     pub divisor: u32,
+    /// As it was drawn.
     pub sampling: SamplingView,
+    /// The tolerance of the view; that of `sampling` may be larger, while something moves.
+    pub wished: Option<f64>,
     pub stats: Stats,
     pub facts: Facts,
     /// Where it was drawn for this report: what that took, and whether something moved.

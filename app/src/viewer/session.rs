@@ -17,6 +17,7 @@ use renderer::{Bounds, SelectView, View};
 use crate::frames::{Frame, FrameState};
 
 use super::analysis::{Analysis, Question};
+use super::budget::Budget;
 use super::field_ranges::FieldRanges;
 use super::messages::Messages;
 use super::orbit_camera::OrbitCamera;
@@ -48,6 +49,8 @@ pub struct Session {
     pub picture: Option<PictureFacts>,
     /// What the pictures drawn lately took.
     pub costs: Costs,
+    /// What moving pictures may take.
+    pub budget: Budget,
     /// What lies over the picture.
     pub overlay: Overlay,
     /// The pixel of the full-size picture whose bundle is looked at.
@@ -101,6 +104,7 @@ impl Session {
             frame: None,
             picture: None,
             costs: Costs::default(),
+            budget: Budget::default(),
             overlay: Overlay::default(),
             probe: None,
             looking: Looking::default(),

@@ -58,6 +58,7 @@ fn picture(session: &Session) -> Report {
         full: ROOM,
         divisor: 4,
         sampling: session.view.sampling,
+        wished: session.view.sampling.tolerance,
         stats: Stats::default(),
         facts,
         drawn: None,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::Kept;
 use crate::places;
+use crate::viewer::budget::Budget;
 use crate::viewer::keymap::{Binding, Keymap};
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,6 +23,8 @@ pub struct Settings {
     pub device_memory_mib: Option<u32>,
     /// Bytes of frames, in MiB, that are kept beside the one in view.
     pub frame_cache_mib: u32,
+    /// What moving pictures may take.
+    pub budget: Budget,
     /// Whether the start page is shown where no run is named.
     pub start_page: bool,
     #[serde(deserialize_with = "known")]
@@ -57,6 +60,7 @@ impl Default for Settings {
             adapter: None,
             device_memory_mib: None,
             frame_cache_mib: 2048,
+            budget: Budget::default(),
             start_page: true,
             keys: Vec::new(),
         }

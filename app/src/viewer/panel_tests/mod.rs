@@ -87,6 +87,7 @@ fn shown(session: &Session, stats: Stats) -> Shown {
         full: [640, 400],
         divisor: 1,
         sampling: session.view.sampling,
+        wished: session.view.sampling.tolerance,
         stats,
         facts,
         drawn: None,

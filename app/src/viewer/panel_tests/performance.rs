@@ -3,7 +3,7 @@ use egui_kittest::kittest::Queryable;
 use renderer::{Evaluations, Milliseconds, Stats};
 
 use super::{assert_written, fluid, panel, pictured, shown, texts};
-use crate::viewer::panels::{hud::Hud, performance};
+use crate::viewer::panels::{budget, hud::Hud, performance};
 use crate::viewer::render_thread::{Drawn, Report};
 use crate::viewer::session::Session;
 use crate::viewer::shortcuts::Action;
@@ -98,4 +98,43 @@ fn the_display_is_copied_as_a_table_and_closed() {
 #[test]
 fn before_the_first_picture_there_is_nothing_to_tell() {
     assert_written(&over_picture(fluid()), &["No picture yet."]);
+}
+
+#[test]
+fn a_time_for_moving_pictures_is_asked_for_and_the_tolerance_in_force_told() {
+    let mut session = fluid();
+    let mut raised = shown(&session, stats());
+    raised.sampling.tolerance = Some(0.012);
+    session.note(&Report::Picture(Box::new(raised)));
+    let mut harness = panel(session, budget::show);
+    assert!(harness.query_by_label("Largest tolerance while moving").is_none());
+    harness.get_by_label("below").click();
+    harness.run();
+    assert!(harness.state().budget.on);
+    assert_written(&harness, &["The picture has a tolerance of 0.012; yours is 0.004"]);
+    harness.get_by_label("Milliseconds of a moving picture").set_value_accesskit(1.0);
+    harness.run();
+    harness.get_by_label("Largest tolerance while moving").set_value_accesskit(0.02);
+    harness.run();
+    let budget = harness.state().budget;
+    assert_eq!((budget.milliseconds, budget.most), (5.0, 0.02), "no picture takes a millisecond");
+    assert_eq!(
+        harness.state().complete_view().sampling.tolerance,
+        Some(0.004),
+        "what is saved is the user's"
+    );
+
+    harness.state_mut().view.sampling.tolerance = None;
+    harness.run();
+    assert_written(&harness, &["Full sampling stays full: only fewer pixels are drawn"]);
+}
+
+#[test]
+fn the_display_tells_a_raised_tolerance() {
+    let mut session = drawn();
+    let mut raised = shown(&session, stats());
+    raised.sampling.tolerance = Some(0.012);
+    raised.drawn = Some(Drawn { moving: true, preparing: 1.0, milliseconds: 35.0 });
+    session.note(&Report::Picture(Box::new(raised)));
+    assert_written(&over_picture(session), &["Tolerance, yours 0.004", "0.012", "0.003 of 0.012"]);
 }

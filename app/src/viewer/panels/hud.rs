@@ -22,7 +22,9 @@ pub struct Hud {
 const WIDTH: f32 = 392.0;
 const MARGIN: f32 = 12.0;
 /// The axes in the corner of the picture stay in sight.
-const ABOVE_AXES: f32 = 92.0;
+const ABOVE_AXES: f32 = 104.0;
+/// Where the numbers of the headline begin.
+const HEADLINE: [f32; 4] = [0.0, 112.0, 196.0, 266.0];
 /// Lines of the legend and of the facts.
 const LINE: f32 = 16.0;
 
@@ -83,7 +85,8 @@ impl Hud {
         let entry = number.and_then(|number| costs.entries().nth(number)).unwrap_or(last);
         let ago = number.map_or(0, |number| costs.entries().len() - 1 - number);
         headline(ui, entry, ago, costs.rate());
-        let hovered = hud_chart::show(ui, costs, None, number);
+        let limit = session.budget.on.then_some(session.budget.milliseconds);
+        let hovered = hud_chart::show(ui, costs, limit, number);
         if hovered != self.hovered {
             self.hovered = hovered;
             ui.ctx().request_repaint();
@@ -105,20 +108,23 @@ fn headline(ui: &mut Ui, entry: &Entry, ago: usize, rate: Option<f64>) {
         1 => "full".into(),
         divisor => format!("1/{divisor}"),
     };
-    let tolerance = entry.tolerance.map_or_else(|| "full sampling".into(), plain);
+    let tolerance = entry.tolerance.map_or_else(|| "none".into(), plain);
+    let wished = match entry.wished {
+        Some(wished) if entry.is_raised() => format!("Tolerance, yours {wished}"),
+        _ => "Tolerance".into(),
+    };
     let cells = [
-        (which.as_str(), in_milliseconds(entry.total())),
-        ("While moving", rate),
-        ("Resolution", resolution),
-        ("E_I", tolerance),
+        (which.as_str(), in_milliseconds(entry.total()), theme::TEXT),
+        ("While moving", rate, theme::TEXT),
+        ("Resolution", resolution, theme::TEXT),
+        (wished.as_str(), tolerance, if entry.is_raised() { theme::WARNING } else { theme::TEXT }),
     ];
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 40.0), Sense::hover());
-    let step = rect.width() / cells.len() as f32;
-    for (number, (caption, value)) in cells.into_iter().enumerate() {
-        let place = rect.left_top() + vec2(number as f32 * step, 0.0);
+    for ((caption, value, ink), left) in cells.into_iter().zip(HEADLINE) {
+        let place = rect.left_top() + vec2(left, 0.0);
         ui.painter().text(place, Align2::LEFT_TOP, caption, egui::FontId::proportional(10.5), theme::MUTED);
         let place = place + vec2(0.0, 15.0);
-        ui.painter().text(place, Align2::LEFT_TOP, value, egui::FontId::proportional(16.0), theme::TEXT);
+        ui.painter().text(place, Align2::LEFT_TOP, value, egui::FontId::proportional(16.0), ink);
     }
 }
 
@@ -168,7 +174,11 @@ fn facts(ui: &mut Ui, session: &Session, entry: &Entry, measured: Option<&State>
     let (held, limit) = session.run().map_or((0, 0), |run| (run.stream.bytes(), run.stream.budget()));
     let frames = format!("{} of {}", widgets::bytes(held as u64), widgets::bytes(limit as u64));
     let lines = [
-        ("Predicted error", predicted, "The largest that any pixel may have, of E_I"),
+        (
+            "Predicted error",
+            predicted,
+            "The largest that any pixel may have, of the tolerance of this picture",
+        ),
         (
             "Evaluations",
             evaluations(entry, measured),

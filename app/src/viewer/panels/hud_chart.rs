@@ -58,7 +58,8 @@ pub fn show(ui: &mut Ui, costs: &Costs, limit: Option<f64>, hovered: Option<usiz
         let share = 1.0 - 0.2 * f64::from(entry.divisor.max(1)).log2();
         lane(painter, resolution, place, share, theme::ACCENT.gamma_multiply(0.75));
         if let (Some(tolerance), Some(predicted)) = (entry.tolerance, entry.predicted) {
-            lane(painter, error, place, predicted / tolerance, theme::MUTED);
+            let colour = if entry.is_raised() { theme::WARNING } else { theme::MUTED };
+            lane(painter, error, place, predicted / tolerance, colour.gamma_multiply(0.8));
         }
     }
     if let Some(limit) = limit.filter(|limit| *limit <= top) {
@@ -66,7 +67,7 @@ pub fn show(ui: &mut Ui, costs: &Costs, limit: Option<f64>, hovered: Option<usiz
         let ends = [pos2(bars.left(), y), pos2(bars.right(), y)];
         painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, theme::WARNING), 4.0, 3.0));
     }
-    for (rect, text) in [(resolution, "Resolution"), (error, "Error of E_I")] {
+    for (rect, text) in [(resolution, "Resolution"), (error, "Error share")] {
         caption(painter, rect, rect.center().y, text);
     }
     let over = response.hover_pos().filter(|place| bars.x_range().contains(place.x))?;

@@ -1,6 +1,7 @@
 //! One panel a file. Panels edit the session's view; what needs the window they ask for by an action.
 
 pub mod annotations;
+pub mod budget;
 pub mod camera;
 pub mod cell_classes;
 pub mod cells;

@@ -6,8 +6,11 @@ use crate::viewer::session::Session;
 use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::{theme, widgets};
 
+use super::budget;
+
 /// `hud` says whether the times of the last pictures are shown over the picture.
-pub fn show(ui: &mut Ui, session: &Session, hud: bool, actions: &mut Vec<Action>) {
+pub fn show(ui: &mut Ui, session: &mut Session, hud: bool, actions: &mut Vec<Action>) {
+    budget::show(ui, session);
     let mut shown = hud;
     let switch = ui.checkbox(&mut shown, "Show over the picture");
     if switch.on_hover_text(hint(ui.ctx(), Action::Performance)).changed() {

@@ -7,12 +7,13 @@ use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
 use renderer::{
-    CellMap, Gpu, GpuOptions, Picture, Progress, RenderError, Renderer, SamplingView, Scene, View,
+    CellMap, Gpu, GpuOptions, Picture, Progress, RenderError, Renderer, SamplingView, Scene, Stats, View,
 };
 
 use super::{Drawn, IDLE, Job, Looks, Report, Shown, Slot, without_background};
 use crate::frames::Frame;
 use crate::viewer::Wake;
+use crate::viewer::budget::{Budget, Raise};
 use crate::viewer::pace::{DIVISORS, Pace};
 use crate::viewer::pointing::Shot;
 use crate::viewer::prepare::{Facts, Preparation};
@@ -31,7 +32,12 @@ pub(super) struct Worker {
     wake: Wake,
     options: GpuOptions,
     renderer: Option<Renderer>,
+    /// Whether the device is a program on the CPU.
+    software: bool,
     pace: Pace,
+    raise: Raise,
+    /// Milliseconds that making particles ready took, the last time.
+    preparing: f64,
     preparation: Preparation,
     /// The last picture that was finished, for a change of background alone, and for going on
     /// where a moving picture left off.
@@ -40,7 +46,9 @@ pub(super) struct Worker {
 
 struct Last {
     frame: Arc<Frame>,
-    /// Without its background.
+    /// What was asked for, without its background.
+    asked: View,
+    /// The same as it was drawn: while something moves, with a larger tolerance, perhaps.
     view: View,
     divisor: u32,
     scene: Arc<Scene>,
@@ -59,6 +67,12 @@ impl Last {
             size: [self.view.image.width, self.view.image.height],
             quantity: self.view.quantity.name.clone(),
         }
+    }
+
+    /// Whether it is what the job asks for: while something moves, with whatever tolerance it was drawn.
+    fn serves(&self, job: &Job, asked: &View) -> bool {
+        let same = self.view == *asked || (job.moving && self.asked == *asked);
+        same && Arc::ptr_eq(&self.frame, &job.frame)
     }
 }
 
@@ -81,7 +95,10 @@ impl Worker {
             wake,
             options,
             renderer: None,
+            software: true,
             pace: Pace::new(BUDGETS[1], true),
+            raise: Raise::default(),
+            preparing: 0.0,
             preparation: Preparation::default(),
             last: None,
         }
@@ -111,35 +128,40 @@ impl Worker {
         let gpu = Gpu::new(&self.options).map_err(|error| error.to_string())?;
         let (name, software) = (gpu.adapter_name().to_owned(), gpu.is_software());
         self.renderer = Some(Renderer::new(gpu).map_err(|error| error.to_string())?);
-        self.pace = Pace::new(BUDGETS[usize::from(software)], software);
+        (self.software, self.pace) = (software, Pace::new(BUDGETS[usize::from(software)], software));
         self.report(Report::Adapter { name, software });
         Ok(())
     }
 
     /// Draws what the job asks for, pass by pass.
     fn serve(&mut self, job: &Job) -> Result<(), Stop> {
-        let key = without_background(&job.view);
-        let stale = self.last.take_if(|last| !Arc::ptr_eq(&last.frame, &job.frame) || last.view != key);
-        let mut divisor = match &self.last {
-            Some(last) if last.divisor == 1 || job.moving => {
+        self.pace.set_budget(self.time(&job.budget));
+        let asked = without_background(&job.view);
+        let stale = self.last.take_if(|last| !last.serves(job, &asked));
+        let (mut divisor, mut first) = match (self.last.as_ref().map(|last| last.divisor), stale) {
+            (Some(divisor), _) if divisor == 1 || job.moving => {
                 return self.tell(job, None);
             }
-            Some(last) => {
-                let divisor = last.divisor;
+            (Some(divisor), _) => {
                 // The background may be another one, or what is wanted beside the picture.
                 self.tell(job, None)?;
-                Pace::finer(divisor)
+                (Pace::finer(divisor), false)
             }
-            None if job.moving => self.pace.moving(),
-            None => match stale.filter(|last| differs_in_sampling_alone(last, job)) {
-                // In the size that it had, its grid and its bounds serve again.
-                Some(last) => last.divisor,
-                None => self.pace.resting(),
-            },
+            (None, _) if job.moving => (self.pace.moving(), true),
+            // Only its tolerance was another one for a while: it is refined like any other.
+            (None, Some(last)) if last.asked == asked && last.divisor > 1 => {
+                (Pace::finer(last.divisor), false)
+            }
+            // In the size that it had, its grid and its bounds serve again.
+            (None, Some(last)) if differs_in_sampling_alone(&last, job) => (last.divisor, true),
+            (None, _) => (self.pace.resting(), true),
         };
-        let mut first = self.last.is_none();
+        let mut view = asked;
+        if job.moving {
+            view.sampling.tolerance = self.raise.tolerance(view.sampling.tolerance, &job.budget);
+        }
         loop {
-            self.pass(job, &key, divisor, first)?;
+            self.pass(job, &view, divisor, first)?;
             if job.moving || divisor == 1 {
                 return Ok(());
             }
@@ -151,11 +173,20 @@ impl Worker {
         }
     }
 
-    /// Draws one picture at 1/`divisor` and reports it.
-    fn pass(&mut self, job: &Job, key: &View, divisor: u32, first: bool) -> Result<(), Stop> {
+    /// Milliseconds that drawing a moving picture may take.
+    fn time(&self, budget: &Budget) -> f64 {
+        match budget.on {
+            true => (budget.milliseconds - self.preparing).max(0.25 * budget.milliseconds),
+            false => BUDGETS[usize::from(self.software)],
+        }
+    }
+
+    /// Draws one picture of `view` at 1/`divisor` and reports it.
+    fn pass(&mut self, job: &Job, view: &View, divisor: u32, first: bool) -> Result<(), Stop> {
         let asked = Instant::now();
-        let (scene, facts) = self.scene(&job.frame, key, divisor)?;
+        let (scene, facts) = self.scene(&job.frame, view, divisor)?;
         let begun = Instant::now();
+        self.preparing = (begun - asked).as_secs_f64() * 1e3;
         let (picture, cells) = self.attempt(&scene, divisor, first, |renderer, progress| {
             if job.looks.cells {
                 let (picture, cells) = renderer.render_with_cells(&scene, progress)?;
@@ -163,17 +194,30 @@ impl Worker {
             }
             Ok((renderer.render(&scene, progress)?, None))
         })?;
-        let pixels = f64::from(key.image.width) * f64::from(key.image.height);
+        let pixels = f64::from(view.image.width) * f64::from(view.image.height);
         self.pace.learn(pixels, divisor, begun.elapsed().as_secs_f64() * 1e3);
-        let (frame, view) = (Arc::clone(&job.frame), key.clone());
-        let scene = Arc::new(scene);
-        self.last = Some(Last { frame, view, divisor, scene, picture, facts, cells, probed: None });
+        self.weigh(job, &picture.stats);
         let drawn = Drawn {
             moving: job.moving,
-            preparing: (begun - asked).as_secs_f64() * 1e3,
+            preparing: self.preparing,
             milliseconds: asked.elapsed().as_secs_f64() * 1e3,
         };
+        let (frame, asked, view) = (Arc::clone(&job.frame), without_background(&job.view), view.clone());
+        let scene = Arc::new(scene);
+        self.last = Some(Last { frame, asked, view, divisor, scene, picture, facts, cells, probed: None });
         self.tell(job, Some(drawn))
+    }
+
+    /// Learns from the picture that was just drawn which tolerance moving ones should have.
+    fn weigh(&mut self, job: &Job, stats: &Stats) {
+        let Some(drawing) = self.pace.predict(1) else { return };
+        let full_size = drawing + self.preparing;
+        match job.moving {
+            true => self.raise.learn(full_size, job.view.sampling.tolerance, &job.budget),
+            // One on a grid that was there already took less than those of moving pictures will.
+            false if stats.milliseconds.grid > 0.0 => self.raise.rest(full_size),
+            false => {}
+        }
     }
 
     /// Reports the last picture, with what is wanted beside it; without that where it was not found out.
@@ -224,7 +268,7 @@ impl Worker {
     /// Reports the last picture, over the background of `job`.
     fn show(&self, job: &Job, drawn: Option<Drawn>) {
         let Some(last) = &self.last else { return };
-        let Last { divisor, picture, facts, view, cells, probed, .. } = last;
+        let Last { divisor, picture, facts, asked, view, cells, probed, .. } = last;
         let shown = Shown {
             index: job.index,
             width: picture.width,
@@ -233,6 +277,7 @@ impl Worker {
             full: [view.image.width, view.image.height],
             divisor: *divisor,
             sampling: view.sampling,
+            wished: asked.sampling.tolerance,
             stats: picture.stats.clone(),
             facts: facts.clone(),
             drawn,

@@ -7,7 +7,14 @@ fn job(frame: &Arc<Frame>, width: u32) -> Job {
     let mut view = View::default();
     // So high that supports are wide enough for adaptive sampling to pay.
     (view.image.width, view.image.height) = (width, 64);
-    Job { frame: Arc::clone(frame), index: 0, view, moving: false, looks: Looks::default() }
+    Job {
+        frame: Arc::clone(frame),
+        index: 0,
+        view,
+        moving: false,
+        budget: Budget::default(),
+        looks: Looks::default(),
+    }
 }
 
 /// A worker on a small frame, where there is a device.
@@ -111,4 +118,36 @@ fn a_look_into_the_picture_costs_no_other_picture() {
     job.looks = Looks::default();
     let plain = draw(&job);
     assert!(plain.cells.is_none() && plain.probed.is_none());
+}
+
+#[test]
+fn a_moving_picture_that_is_late_has_a_larger_tolerance_and_one_at_rest_the_users() {
+    let Some((mut worker, frame, reports)) = worker() else { return };
+    let mut draw = |job: &Job| {
+        assert!(worker.serve(job).is_ok());
+        let shown = |report| match report {
+            Report::Picture(shown) => Some(shown),
+            _ => None,
+        };
+        reports.try_iter().filter_map(shown).collect::<Vec<Box<Shown>>>()
+    };
+    let mut job = job(&frame, 24);
+    job.moving = true;
+    job.budget = Budget { on: true, milliseconds: 1e-6, most: 0.05 };
+    let tolerances: Vec<f64> = (1..5)
+        .map(|step| {
+            job.view.transfer.reference_length = Some(0.1 * f64::from(step));
+            let pictures = draw(&job);
+            let [shown] = pictures.as_slice() else { panic!("one picture a job") };
+            assert_eq!(shown.wished, Some(0.004));
+            shown.sampling.tolerance.unwrap()
+        })
+        .collect();
+    assert_eq!(tolerances[0], 0.004, "the first has taken no time yet");
+    assert!(tolerances.is_sorted() && tolerances[3] > 0.02 && tolerances[3] <= 0.05, "{tolerances:?}");
+    assert!(draw(&job).iter().all(|shown| shown.drawn.is_none()), "nothing has moved");
+
+    job.moving = false;
+    let last = draw(&job).pop().unwrap();
+    assert_eq!((last.divisor, last.sampling.tolerance, last.wished), (1, Some(0.004), Some(0.004)));
 }

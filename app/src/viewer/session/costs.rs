@@ -57,6 +57,8 @@ pub struct Entry {
     pub divisor: u32,
     /// E_I that it was drawn with; `None` for full sampling.
     pub tolerance: Option<f64>,
+    /// E_I of the view: smaller, where it was raised to keep a moving picture in time.
+    pub wished: Option<f64>,
     /// The largest error that a pixel may have; `None` where all was sampled.
     pub predicted: Option<f64>,
     /// Kernel weights computed.
@@ -67,6 +69,11 @@ pub struct Entry {
 }
 
 impl Entry {
+    /// Whether its E_I is larger than that of the view.
+    pub fn is_raised(&self) -> bool {
+        self.tolerance != self.wished
+    }
+
     /// Milliseconds of a stage.
     pub fn of(&self, stage: Stage) -> f64 {
         self.milliseconds[stage as usize]
@@ -111,6 +118,7 @@ impl Costs {
             full: shown.full,
             divisor: shown.divisor,
             tolerance: shown.sampling.tolerance,
+            wished: shown.wished,
             predicted: (!stats.is_in_full()).then_some(stats.predicted_error),
             evaluations: stats.evaluations.done,
             gpu_bytes: stats.gpu_bytes,
@@ -143,7 +151,7 @@ impl Costs {
     /// A table with a line for each picture, the oldest first; `seconds` count from that one on.
     pub fn to_csv(&self) -> String {
         let mut text = String::from(
-            "seconds,frame,moving,width,height,divisor,tolerance,predicted_error,evaluations,gpu_bytes",
+            "seconds,frame,moving,width,height,divisor,tolerance,tolerance_at_rest,predicted_error,evaluations,gpu_bytes",
         );
         for stage in Stage::ALL {
             let _ = write!(text, ",{}_ms", stage.name().to_lowercase().replace(' ', "_"));
@@ -154,10 +162,11 @@ impl Costs {
         for entry in &self.entries {
             let seconds = begin.map_or(0.0, |begin| entry.at.duration_since(begin).as_secs_f64());
             let Entry { frame, moving, full: [width, height], divisor, evaluations, gpu_bytes, .. } = entry;
-            let (tolerance, predicted) = (optional(entry.tolerance), optional(entry.predicted));
+            let [tolerance, wished, predicted] =
+                [entry.tolerance, entry.wished, entry.predicted].map(optional);
             let _ = write!(
                 text,
-                "{seconds:.3},{frame},{},{width},{height},{divisor},{tolerance},{predicted},{evaluations},{gpu_bytes}",
+                "{seconds:.3},{frame},{},{width},{height},{divisor},{tolerance},{wished},{predicted},{evaluations},{gpu_bytes}",
                 u8::from(*moving),
             );
             for milliseconds in entry.milliseconds {
@@ -191,6 +200,7 @@ mod tests {
             full: [640, 400],
             divisor: 2,
             sampling: SamplingView::default(),
+            wished: Some(0.001),
             stats,
             facts: Facts::default(),
             drawn: Some(Drawn { moving, preparing: 5.0, milliseconds: 20.0 }),
@@ -246,15 +256,15 @@ mod tests {
         let start = Instant::now();
         costs.note(start, &shown(true), 30.0);
         let mut full = shown(false);
-        full.sampling.tolerance = None;
+        (full.sampling.tolerance, full.wished) = (None, None);
         full.stats.evaluations = Evaluations { full: 40, done: 40, ..Evaluations::default() };
         costs.note(start + Duration::from_millis(1500), &full, 0.0);
         assert_eq!(
             costs.to_csv(),
-            "seconds,frame,moving,width,height,divisor,tolerance,predicted_error,evaluations,gpu_bytes,\
+            "seconds,frame,moving,width,height,divisor,tolerance,tolerance_at_rest,predicted_error,evaluations,gpu_bytes,\
              upload_ms,grid_ms,analysis_ms,ray_cast_ms,prepare_ms,other_ms,read_ms,total_ms\n\
-             0.000,3,1,640,400,2,0.004,0.002,50,0,1.000,2.000,3.000,6.000,5.000,3.000,30.000,20.000\n\
-             1.500,3,0,640,400,2,,,40,0,1.000,2.000,3.000,6.000,5.000,3.000,0.000,20.000\n"
+             0.000,3,1,640,400,2,0.004,0.001,0.002,50,0,1.000,2.000,3.000,6.000,5.000,3.000,30.000,20.000\n\
+             1.500,3,0,640,400,2,,,,40,0,1.000,2.000,3.000,6.000,5.000,3.000,0.000,20.000\n"
         );
     }
 }

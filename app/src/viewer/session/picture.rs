@@ -17,10 +17,20 @@ pub struct PictureFacts {
     pub index: usize,
     pub divisor: u32,
     pub full: [u32; 2],
+    /// As it was drawn.
     pub sampling: SamplingView,
+    /// The tolerance that it was to have at rest.
+    pub wished: Option<f64>,
     pub stats: Stats,
     pub facts: Facts,
     pub probed: Option<Arc<Probed>>,
+}
+
+impl PictureFacts {
+    /// Its tolerance, where that was raised to keep a moving picture in time.
+    pub fn raised(&self) -> Option<f64> {
+        self.sampling.tolerance.filter(|_| self.sampling.tolerance != self.wished)
+    }
 }
 
 impl Session {
@@ -83,6 +93,7 @@ impl Session {
             divisor: shown.divisor,
             full: shown.full,
             sampling: shown.sampling,
+            wished: shown.wished,
             stats: shown.stats.clone(),
             facts: facts.clone(),
             probed: shown.probed.clone(),

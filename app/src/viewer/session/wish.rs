@@ -20,7 +20,14 @@ impl Session {
         }
         let looks =
             Looks { cells: self.overlay.needs_cells(), probe: self.probe, shot: self.looking.needs_shot() };
-        let job = Job { frame: Arc::clone(frame), index: *index, view: self.drawn_view(), moving, looks };
+        let job = Job {
+            frame: Arc::clone(frame),
+            index: *index,
+            view: self.drawn_view(),
+            moving,
+            budget: self.budget,
+            looks,
+        };
         if job.view.image.width == 0 || job.view.image.height == 0 {
             return None;
         }
