@@ -3,6 +3,7 @@
 #[path = "support/files.rs"]
 mod files;
 #[path = "support/program.rs"]
+#[expect(dead_code, reason = "no test calls all of it")]
 mod program;
 
 use std::fs;

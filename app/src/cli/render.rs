@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, bail};
-use renderer::Renderer;
+use anyhow::bail;
 
 use super::console::Console;
 use super::{DeviceArguments, SequenceArguments, ViewArguments, WrongArguments};
-use crate::export::{Film, Layer, Listener, Made, Output, Overlay, Pictures, Shard, StatsFile};
+use crate::export::video::{USUAL_RATE, Video, VideoFormat};
+use crate::export::{Layer, Listener, Order, Output, Overlay, Shard, StatsFile, Summary, Target};
 use crate::image_file::Format;
 
 /// Render frames to picture files, without a window.
@@ -24,6 +24,9 @@ ones, and none more than one frame more than another. Where the view leaves came
 every job looks through all frames first, and all settle for the same; a view that says them saves that time. The file \
 of --stats is named after the part, as in stats-3-of-16.json. A job with no frame to do ends well.
 
+A video is made by ffmpeg, which must be installed: H.264 in .mp4, VP9 in .webm, over black where the view has no \
+background.
+
 A picture is written whole or not at all, and holds what it was made from (a text chunk of a PNG, an attribute of an \
 EXR, both named `sphcast`): the view with all settings, the name, size and time of change of the frame's file, its \
 number, and the version of the program. With --resume a picture of which all that is as it would be now is left as it \
@@ -32,11 +35,13 @@ is, and everything else is made anew; so are pictures without that text. Without
 Examples:
   sphcast render frame.vtu --view view.json --out frame.png --overlay cells.png
   sphcast render run/ --frames 10..20 --size 1024x1024 --out 'out-{:04}.exr' --stats stats.json
+  sphcast render run/ --view view.json --size 1920x1080 --out film.mp4 --fps 30
   sphcast render run/ --view view.json --out frames/ --shard $SLURM_ARRAY_TASK_ID/16 --resume")]
 pub struct RenderArguments {
     #[command(flatten)]
     sequence: SequenceArguments,
-    /// .exr (float, linear, premultiplied) or .png (sRGB, over the view's background if it has one)
+    /// .exr (float, linear, premultiplied), .png (sRGB, over the view's background if it has one), or a video:
+    /// .mp4, .webm
     #[arg(long, value_name = "PATH")]
     out: PathBuf,
     #[command(flatten)]
@@ -50,6 +55,9 @@ pub struct RenderArguments {
     /// Values to put into the channels of an EXR beside its colour: predicted-error, as `predicted_error`
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     layers: Vec<Layer>,
+    /// Pictures a second of a video
+    #[arg(long, value_name = "N", default_value_t = USUAL_RATE, value_parser = rate)]
+    fps: f64,
     /// Make only part I of N of the pictures, 1/N to N/N: for several jobs or computers at a time
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -66,36 +74,50 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let view = arguments.view.resolve(&run.sequence)?;
     let frames = run.sequence.len();
     let wrong = |flag| move |what| WrongArguments(format!("{flag}: {what}"));
-    let output = Output::new(&arguments.out, frames, &[Format::Png, Format::Exr]).map_err(wrong("--out"))?;
+    let target = arguments.target(frames)?;
+    let output = if let Target::Files(output) = &target { Some(output) } else { None };
     let layers = arguments.layers.clone();
-    if !layers.is_empty() && output.format() != Some(Format::Exr) {
+    if !layers.is_empty() && output.and_then(Output::format) != Some(Format::Exr) {
         return Err(wrong("--layers")("only .exr files hold them: name such a file with --out".into()).into());
     }
-    let overlay = arguments.overlay.as_ref().map(|path| Overlay::new(path, frames, &output));
+    let overlay = arguments.overlay.as_ref().map(|path| Overlay::new(path, frames, output));
     let overlay = overlay.transpose().map_err(wrong("--overlay"))?;
     let stats = arguments.stats.as_ref().map(|path| {
         let path = arguments.shard.map_or_else(|| path.clone(), |shard| shard.own(path));
         StatsFile::new(path, frames > 1, arguments.resume)
     });
-    let renderer = Renderer::new(arguments.device.open()?).context("sphcast")?;
-    let mut pictures = Pictures { renderer, output, overlay, stats, layers, resumes: arguments.resume };
-    pictures.prepare(&view)?;
-
-    let mut film = Film::new(run, view, arguments.shard, console.clone());
-    let mut kept = 0;
-    let result = film.each(|film, index| {
-        kept += usize::from(pictures.make(film, index)? == Made::Kept);
-        Ok(())
-    });
+    let (shard, resumes) = (arguments.shard, arguments.resume);
+    let order = Order { run, shard, view, target, overlay, layers, stats, view_file: None, resumes };
+    let result = order.carry_out(arguments.device.open()?, console.clone());
     console.clear();
-    let failed = result?;
+    let Summary { frames, kept, failed } = result?;
     if kept > 0 {
-        console.say(&format!("note: {kept} of {} pictures were there and are left as they are", film.len()));
+        console.say(&format!("note: {kept} of {frames} pictures were there and are left as they are"));
     }
-    // Also where no picture is new.
-    pictures.stats.map_or(Ok(()), |stats| stats.write())?;
     match failed.as_slice() {
         [] => Ok(()),
-        [first, ..] => bail!("{first}: no picture: {} of {} frames failed", failed.len(), film.len()),
+        [first, ..] => bail!("{first}: no picture: {} of {frames} frames failed", failed.len()),
     }
+}
+
+impl RenderArguments {
+    /// Where pictures of `frames` frames go.
+    fn target(&self, frames: usize) -> Result<Target, WrongArguments> {
+        let Some(format) = VideoFormat::of(&self.out) else {
+            let output = Output::new(&self.out, frames, &[Format::Png, Format::Exr]);
+            return output.map(Target::Files).map_err(|what| WrongArguments(format!("--out: {what}")));
+        };
+        let whole = [("--shard", self.shard.is_some()), ("--resume", self.resume)];
+        if let Some((flag, _)) = whole.iter().find(|(_, given)| *given) {
+            let what = "a video is made as a whole: make pictures by parts, and a video of them by ffmpeg";
+            return Err(WrongArguments(format!("{flag}: {what}")));
+        }
+        Ok(Target::Video(Video::new(self.out.clone(), format, self.fps)))
+    }
+}
+
+/// Pictures a second.
+fn rate(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|rate: &f64| (0.1..=1000.0).contains(rate));
+    number.ok_or_else(|| "expected a number between 0.1 and 1000".to_owned())
 }

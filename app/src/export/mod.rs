@@ -7,18 +7,21 @@
 mod film;
 mod layer;
 mod listener;
+mod order;
 mod output;
 mod pictures;
 mod record;
 mod shard;
 mod stats_file;
 mod survey;
+pub mod video;
 
 pub use film::{Content, Fatal, Film, Run};
 pub use layer::Layer;
 pub use listener::{Listener, Stage};
+pub use order::{Order, Summary};
 pub use output::Output;
-pub use pictures::{Made, Overlay, Pictures};
+pub use pictures::{Made, Overlay, Pictures, Target};
 pub use shard::Shard;
 pub use stats_file::StatsFile;
 

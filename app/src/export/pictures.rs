@@ -1,11 +1,12 @@
 //! One frame after the other to picture files.
 
 use std::ops::{ControlFlow, Range};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, bail};
 use renderer::{Band, CellMap, Picture, Renderer, Scene, Stats, View};
 
+use super::video::Video;
 use super::{Fatal, Film, Layer, Output, StatsFile, record};
 use crate::annotate::Annotations;
 use crate::image_file::{self, Format, Header, Pixels, Rows, Unwritten};
@@ -18,23 +19,39 @@ pub struct Overlay {
 }
 
 impl Overlay {
-    /// Beside the pictures of a run of `frames` frames, which go to `pictures`.
+    /// Beside the pictures of a run of `frames` frames, which go to `pictures` where they are files.
     ///
     /// # Errors
     /// The path, and why it does not do.
-    pub fn new(path: &Path, frames: usize, pictures: &Output) -> Result<Overlay, String> {
+    pub fn new(path: &Path, frames: usize, pictures: Option<&Output>) -> Result<Overlay, String> {
         let output = Output::new(path, frames, &[Format::Png])?;
-        if output == *pictures {
+        if Some(&output) == pictures {
             return Err(format!("{}: is where --out writes the pictures themselves", path.display()));
         }
         Ok(Overlay { output, lettering: Lettering::default() })
     }
 }
 
+/// Where the pictures go.
+pub enum Target {
+    Files(Output),
+    Video(Video),
+}
+
+impl Target {
+    /// Whose colours annotations mix with: a video's are those of the screen.
+    fn format(&self) -> Option<Format> {
+        match self {
+            Target::Files(output) => output.format(),
+            Target::Video(_) => Some(Format::Png),
+        }
+    }
+}
+
 /// Makes the files of each frame.
 pub struct Pictures {
     pub renderer: Renderer,
-    pub output: Output,
+    pub target: Target,
     pub overlay: Option<Overlay>,
     pub stats: Option<StatsFile>,
     /// What the pictures, which are EXR then, hold beside their colour.
@@ -64,7 +81,15 @@ impl Pictures {
                  leave it out, or make the picture smaller, such as 8192x8192"
             );
         }
-        self.output.prepare()?;
+        match &self.target {
+            Target::Files(output) => output.prepare()?,
+            Target::Video(video) if u64::from(width) * u64::from(height) > MOST_WHOLE => bail!(
+                "{}: {width} x {height} pixels are more than the {MOST_WHOLE} that a video can have here; make it \
+                 smaller, such as 3840x2160",
+                video.path().display()
+            ),
+            Target::Video(_) => {}
+        }
         self.overlay.iter().try_for_each(|overlay| overlay.output.prepare())
     }
 
@@ -73,7 +98,7 @@ impl Pictures {
         let number = film.number(index);
         let record =
             record::of(&film.common_view(), film.source(index), number, &Layer::channels(&self.layers));
-        if self.resumes && self.files(number).iter().all(|path| is_made(path, &record)) {
+        if self.resumes && self.is_there(number, &record) {
             self.stats.iter_mut().for_each(|stats| stats.keep(number));
             return Ok(Made::Kept);
         }
@@ -85,10 +110,20 @@ impl Pictures {
         Ok(Made::Written)
     }
 
-    /// The files that frame `number` has.
-    fn files(&self, number: usize) -> Vec<PathBuf> {
+    /// Ends what all pictures have in common.
+    pub fn finish(&mut self) -> anyhow::Result<()> {
+        if let Target::Video(video) = &mut self.target {
+            video.finish()?;
+        }
+        // Also where no picture is new.
+        self.stats.as_ref().map_or(Ok(()), StatsFile::write)
+    }
+
+    /// Whether frame `number` has all its files, made as `record` says.
+    fn is_there(&self, number: usize, record: &str) -> bool {
+        let Target::Files(output) = &self.target else { return false };
         let overlay = self.overlay.as_ref().map(|overlay| overlay.output.path(number));
-        std::iter::once(self.output.path(number)).chain(overlay).collect()
+        std::iter::once(output.path(number)).chain(overlay).all(|path| is_made(&path, record))
     }
 
     fn draw(&mut self, film: &Film, shot: &Shot) -> anyhow::Result<()> {
@@ -133,18 +168,26 @@ impl Pictures {
         if let (Some(overlay), Some(cells)) = (&mut self.overlay, &cells) {
             write(&overlay.output, &overlay::drawn_over(&pixels, cells, &mut overlay.lettering), &[])?;
         }
-        if let (Some(annotations), Some(format)) = (&shot.annotations, self.output.format()) {
+        if let (Some(annotations), Some(format)) = (&shot.annotations, self.target.format()) {
             annotations.draw_onto(&mut pixels, format);
         }
-        write(&self.output, &pixels, layers)?;
+        match &mut self.target {
+            Target::Files(output) => write(output, &pixels, layers)?,
+            Target::Video(video) => video
+                .add(&pixels, film.view().image.background)
+                .map_err(|error| Fatal(format!("{error:#}")))?,
+        }
         Ok(stats)
     }
 
     /// Renders and writes some rows at a time: as many as suit the host, however large the picture is.
     fn draw_in_bands(&mut self, film: &Film, shot: &Shot, part: Range<f32>) -> anyhow::Result<Stats> {
         let Shot { index, scene, .. } = shot;
-        let (path, names) = (self.output.path(film.number(*index)), Layer::channels(&self.layers));
-        let (renderer, layers, format) = (&mut self.renderer, &self.layers, self.output.format());
+        let Target::Files(output) = &self.target else {
+            bail!("{}: a video is drawn picture by picture", film.name(*index))
+        };
+        let (path, names) = (output.path(film.number(*index)), Layer::channels(&self.layers));
+        let (renderer, layers, format) = (&mut self.renderer, &self.layers, output.format());
         image_file::write_rows(&path, &shot.header(film, &names), |sink| {
             let mut refusal = None;
             let mut take = |mut band: Band| {

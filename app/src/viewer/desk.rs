@@ -1,5 +1,6 @@
 //! Session, threads, dialogs and panels at work together: one call a frame.
 
+mod exporting;
 mod files;
 mod keeping;
 mod looking;
@@ -37,6 +38,7 @@ use super::task::Outcome;
 use super::widgets::Areas;
 use super::{Options, Wake};
 
+use exporting::Exporting;
 use keeping::Keeping;
 
 /// What was done on another thread.
@@ -50,6 +52,7 @@ enum Done {
     Located(Located),
     Kept(&'static str, anyhow::Result<()>),
     Adapters(Vec<String>),
+    VideosPossible(bool),
 }
 
 /// A run that is looked for.
@@ -71,7 +74,9 @@ pub struct Desk {
     pub(super) picture: PictureView,
     pub(super) editor: TransferEditor,
     pub(super) sampling: SamplingPanel,
+    /// Pictures that are being saved.
     pub(super) exports: Vec<Export>,
+    exporting: Exporting,
     /// Of the picture in view.
     pub(super) measurement: Option<Measurement>,
     pub(super) inspector: Inspector,
@@ -115,6 +120,7 @@ impl Desk {
             editor: TransferEditor::default(),
             sampling: SamplingPanel::new(),
             exports: Vec::new(),
+            exporting: Exporting::new(&wake),
             measurement: None,
             inspector: Inspector::default(),
             hud: Hud::default(),
@@ -175,6 +181,7 @@ impl Desk {
             self.render.submit(job);
         }
         self.follow_measurement();
+        self.follow_export(window);
         self.escape(ui.ctx());
         self.count();
         self.look_closer();
@@ -225,6 +232,7 @@ impl Desk {
                 self.dialogs.ask(Purpose::SavePicture, &name, window);
             }
             Action::QuickSave => self.quick_save(),
+            Action::Export => self.toggle_export(),
             Action::MeasureError => self.measure_error(),
             Action::Undo => session.undo(),
             Action::Redo => session.redo(),
@@ -254,7 +262,7 @@ impl Desk {
             Action::Performance => self.hud.open = !self.hud.open,
             Action::FullScreen => self.orders.push(Order::FullScreen),
             Action::Help => self.help = !self.help,
-            Action::Quit => self.orders.push(Order::Quit),
+            Action::Quit => self.quit(),
         }
     }
 
@@ -300,6 +308,7 @@ impl Desk {
                 }
                 Done::Ranged(ranges) => self.take_field_ranges(ranges),
                 Done::Kept(file, result) => self.written(file, result),
+                Done::VideosPossible(possible) => self.exporting.videos_possible(possible),
                 Done::Adapters(names) => {
                     if let Some(preferences) = &mut self.preferences {
                         preferences.adapters = Some(names);

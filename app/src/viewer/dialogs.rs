@@ -17,6 +17,7 @@ pub enum Purpose {
     LoadView,
     SaveView,
     SavePicture,
+    ExportFolder,
 }
 
 /// What became of a dialog.
@@ -70,6 +71,10 @@ impl Dialogs {
             }
             Purpose::OpenFolder => {
                 let folder = dialog.set_title("Open a folder as a sequence").pick_folder();
+                Box::pin(async move { one(folder.await) })
+            }
+            Purpose::ExportFolder => {
+                let folder = dialog.set_title("Where exported files go").pick_folder();
                 Box::pin(async move { one(folder.await) })
             }
             Purpose::LoadView => {

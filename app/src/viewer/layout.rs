@@ -62,6 +62,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
     help::show(ui, &mut desk.help);
     Palette::show(&mut desk.palette, ui, actions);
     Preferences::show(ui, desk);
+    desk.show_export(ui);
     drop_target(ui);
     room
 }

@@ -14,6 +14,7 @@ mod desk;
 mod dialogs;
 mod error_map;
 mod export;
+mod exports;
 mod field_ranges;
 mod handles;
 mod icons;

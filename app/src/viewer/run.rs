@@ -14,6 +14,7 @@ pub struct Run {
     names: Vec<String>,
     /// One a frame.
     sources: Vec<Arc<Timed>>,
+    pub sequence: Sequence,
     pub stream: FrameStream,
 }
 
@@ -30,7 +31,7 @@ impl Run {
         let sources: Vec<Arc<Timed>> = sequence.frame_sources().into_iter().map(Timed::new).collect();
         let timed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
         let stream = FrameStream::new(timed, cache, move || wake());
-        Run { title, names, sources, stream }
+        Run { title, names, sources, sequence: sequence.clone(), stream }
     }
 
     /// Milliseconds that reading frame `index` took, told once for each time that it was read.

@@ -154,7 +154,12 @@ impl Open {
     fn handle(&mut self, events: &ActiveEventLoop, event: &WindowEvent) -> anyhow::Result<()> {
         match event {
             WindowEvent::RedrawRequested => return self.redraw(events),
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => {
+            WindowEvent::CloseRequested => {
+                self.desk.quit();
+                self.window.request_redraw();
+                return Ok(());
+            }
+            WindowEvent::Destroyed => {
                 events.exit();
                 return Ok(());
             }

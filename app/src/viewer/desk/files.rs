@@ -18,6 +18,7 @@ impl Desk {
             Purpose::OpenFiles | Purpose::OpenFolder => self.find(paths),
             Purpose::LoadView => self.load_view(first),
             Purpose::SaveView => self.save_view(with_ending(first, &["json"])),
+            Purpose::ExportFolder => self.exporting.folder_chosen(&first),
             Purpose::SavePicture => self.save_picture(with_ending(first, &["png", "exr"])),
         }
     }

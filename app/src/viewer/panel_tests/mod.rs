@@ -2,6 +2,7 @@
 
 mod annotations;
 mod cells;
+mod export;
 mod handles;
 mod help;
 mod inspector;

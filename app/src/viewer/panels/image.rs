@@ -8,7 +8,7 @@ use crate::viewer::shortcuts::{Action, hint, keys};
 use crate::viewer::widgets;
 
 /// Sizes on offer.
-const SIZES: [(&str, [u32; 2]); 6] = [
+pub const SIZES: [(&str, [u32; 2]); 6] = [
     ("HD  1280 × 720", [1280, 720]),
     ("Full HD  1920 × 1080", [1920, 1080]),
     ("4K  3840 × 2160", [3840, 2160]),
@@ -38,6 +38,11 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
             actions.push(Action::QuickSave);
         }
     });
+    let width = ui.available_width();
+    let export = widgets::wide_button(ui, "Export pictures or a video…", width);
+    if export.on_hover_text(hint(ui.ctx(), Action::Export)).clicked() {
+        actions.push(Action::Export);
+    }
 }
 
 fn size(ui: &mut Ui, session: &mut Session) {

@@ -7,6 +7,8 @@ pub mod cell_classes;
 pub mod cells;
 pub mod distance;
 pub mod error_legend;
+pub mod export;
+pub mod export_queue;
 pub mod filters;
 pub mod help;
 pub mod hud;

@@ -48,6 +48,7 @@ fn files(ui: &mut Ui, actions: &mut Vec<Action>) {
     ui.menu_button("Picture", |ui| {
         item(ui, "Save picture…", Action::SavePicture, actions);
         item(ui, "Save picture and view in this folder", Action::QuickSave, actions);
+        item(ui, "Export pictures or a video…", Action::Export, actions);
     });
 }
 

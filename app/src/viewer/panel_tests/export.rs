@@ -1,0 +1,108 @@
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+use super::{panel, session_over};
+use crate::export::video::VideoFormat;
+use crate::image_file::Format;
+use crate::viewer::exports::{Exports, Plan};
+use crate::viewer::panels::export::{ExportForm, Kind};
+use crate::viewer::panels::export_queue;
+use crate::viewer::session::Session;
+use crate::viewer::theme;
+
+fn form() -> Harness<'static, (ExportForm, Session)> {
+    let session = session_over(&["demo"]);
+    let mut form = ExportForm::new(&session);
+    form.folder = "out".into();
+    // As wide as the window, which is no part of the side panel.
+    let builder = Harness::builder().with_size(egui::vec2(420.0, 500.0));
+    let mut harness = builder.build_ui_state(
+        |ui, (form, session): &mut (ExportForm, Session)| {
+            theme::apply(ui.ctx());
+            form.fields(ui, session, &mut Vec::new());
+        },
+        (form, session),
+    );
+    harness.run();
+    harness
+}
+
+fn plan(harness: &Harness<(ExportForm, Session)>) -> Plan {
+    let (form, session) = harness.state();
+    form.plan(session).expect("there is a run, a folder and a name")
+}
+
+fn click(harness: &mut Harness<(ExportForm, Session)>, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run();
+}
+
+#[test]
+fn a_run_is_a_sequence_of_numbered_pictures_at_first() {
+    let harness = form();
+    let plan = plan(&harness);
+    assert_eq!((plan.first, plan.last, plan.every), (0, 26, 1));
+    assert_eq!(plan.path, std::path::Path::new("out/frame-{:04}.png"));
+    assert!(plan.resumes && plan.layers.is_empty() && plan.view_file.is_none());
+}
+
+#[test]
+fn what_is_clicked_is_what_is_exported() {
+    let mut harness = form();
+    click(&mut harness, "EXR");
+    assert_eq!(harness.state().0.format, Format::Exr);
+    click(&mut harness, "Predicted error of each pixel");
+    click(&mut harness, "view.json");
+    click(&mut harness, "Keep pictures that are done");
+    let sequence = plan(&harness);
+    assert_eq!(sequence.path, std::path::Path::new("out/frame-{:04}.exr"));
+    assert_eq!(sequence.layers.len(), 1);
+    assert_eq!(sequence.view_file.as_deref(), Some("out/frame.view.json".as_ref()));
+    assert!(!sequence.resumes);
+
+    click(&mut harness, "Video");
+    assert_eq!(harness.state().0.kind, Kind::Video);
+    click(&mut harness, "WebM");
+    assert_eq!(harness.state().0.video, VideoFormat::WebM);
+    let video = plan(&harness);
+    assert_eq!(video.path, std::path::Path::new("out/film.webm"));
+    assert!(video.layers.is_empty(), "a video has none");
+
+    harness.state_mut().1.jump(7);
+    click(&mut harness, "Picture");
+    let picture = plan(&harness);
+    assert_eq!((picture.first, picture.last), (7, 7));
+    assert_eq!(picture.path, std::path::Path::new("out/sphcast-0007.exr"));
+}
+
+#[test]
+fn without_a_name_there_is_nothing_to_export() {
+    let mut harness = form();
+    harness.state_mut().0.name = "  ".into();
+    let (form, session) = harness.state();
+    assert!(form.plan(session).is_none());
+}
+
+#[test]
+fn an_export_is_cancelled_resumed_and_removed() {
+    let (form, session) = form_and_session();
+    let mut exports = Exports::new(std::sync::Arc::new(|| {}));
+    exports.add(form.plan(&session).unwrap());
+    let mut harness = panel(exports, export_queue::show);
+    harness.get_by_label("Cancel frame-{:04}.png").click();
+    harness.run();
+    assert_eq!(harness.state().pending(), 0);
+    harness.get_by_label("Resume frame-{:04}.png").click();
+    harness.run();
+    assert_eq!(harness.state().pending(), 1);
+    harness.get_by_label("Cancel frame-{:04}.png").click();
+    harness.run();
+    harness.get_by_label("Remove frame-{:04}.png").click();
+    harness.run();
+    assert!(harness.state().list.is_empty());
+}
+
+fn form_and_session() -> (ExportForm, Session) {
+    let session = session_over(&["demo"]);
+    (ExportForm::new(&session), session)
+}
