@@ -163,6 +163,7 @@ impl Desk {
         self.take_drops(ui.ctx());
         let before = self.session.view.clone();
         self.keeping.settings.keymap().install(ui.ctx());
+        self.keeping.follow_scale(ui.ctx());
         // These take keys for themselves.
         let takes_keys = self.palette.is_some() || self.preferences.is_some();
         let mut actions = if takes_keys { Vec::new() } else { super::shortcuts::pressed(ui.ctx()) };

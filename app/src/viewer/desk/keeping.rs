@@ -16,6 +16,8 @@ pub struct Keeping {
     pub recent: RecentRuns,
     /// What was open before the program was started.
     pub last: Option<LastSession>,
+    /// Size of letters and controls when it was last looked at.
+    scale: f32,
     /// What the open run was opened by; empty for the demo, which needs no keeping.
     paths: Vec<PathBuf>,
     /// What the files hold.
@@ -38,9 +40,21 @@ impl Keeping {
         });
         let written = (settings.clone(), None);
         let paths = Vec::new();
-        let keeping =
-            Keeping { settings, recent, last, paths, written, writing: false, next: Instant::now() };
+        let (scale, next) = (1.0, Instant::now());
+        let keeping = Keeping { settings, recent, last, scale, paths, written, writing: false, next };
         (keeping, troubles)
+    }
+
+    /// Gives letters and controls their size, and takes note of another one that the keyboard has given
+    /// them: Ctrl with plus, minus or 0.
+    pub(super) fn follow_scale(&mut self, context: &egui::Context) {
+        let scale = context.zoom_factor();
+        if scale != self.scale {
+            self.settings.scale = scale;
+        } else if scale != self.settings.usable_scale() {
+            context.set_zoom_factor(self.settings.usable_scale());
+        }
+        self.scale = scale;
     }
 }
 

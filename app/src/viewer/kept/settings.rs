@@ -25,6 +25,8 @@ pub struct Settings {
     pub frame_cache_mib: u32,
     /// What moving pictures may take.
     pub budget: Budget,
+    /// Size of letters and controls, in times of the system's.
+    pub scale: f32,
     /// Whether the start page is shown where no run is named.
     pub start_page: bool,
     #[serde(deserialize_with = "known")]
@@ -35,8 +37,16 @@ impl Settings {
     pub const FRAME_CACHE_MIB: std::ops::RangeInclusive<u32> = 64..=1 << 20;
     pub const DEVICE_MEMORY_MIB: std::ops::RangeInclusive<u32> = 64..=1 << 18;
 
+    pub const SCALE: std::ops::RangeInclusive<f32> = 0.6..=2.5;
+
     pub fn keymap(&self) -> Keymap {
         Keymap::from_bindings(&self.keys)
+    }
+
+    /// Size of letters and controls, within what can be read and used.
+    pub fn usable_scale(&self) -> f32 {
+        let (least, most) = Self::SCALE.into_inner();
+        if self.scale.is_finite() { self.scale.clamp(least, most) } else { 1.0 }
     }
 
     /// Bytes of frames that are kept beside the one in view.
@@ -61,6 +71,7 @@ impl Default for Settings {
             device_memory_mib: None,
             frame_cache_mib: 2048,
             budget: Budget::default(),
+            scale: 1.0,
             start_page: true,
             keys: Vec::new(),
         }
@@ -92,6 +103,7 @@ mod tests {
         let settings: Settings = serde_json::from_str(text).unwrap();
         assert_eq!((settings.frame_cache(), settings.keys.len()), (512 << 20, 1));
         assert!(settings.start_page);
+        assert_eq!(Settings { scale: 1e9, ..settings }.usable_scale(), 2.5);
     }
 
     #[test]

@@ -79,6 +79,16 @@ impl Preferences {
                 ui.add(field.speed(16.0)).accessible_name("Device memory");
             }
         });
+        widgets::row(ui, "Text size", |ui| {
+            let mut percent = 100.0 * settings.usable_scale();
+            let (least, most) = Settings::SCALE.into_inner();
+            let field = egui::DragValue::new(&mut percent).range(100.0 * least..=100.0 * most).suffix(" %");
+            let field = ui.add(field.speed(1.0).fixed_decimals(0).update_while_editing(false));
+            let hint = "Of letters and controls; Ctrl with plus, minus and 0 in the window does the same";
+            if field.accessible_name("Text size").on_hover_text(hint).changed() {
+                settings.scale = percent / 100.0;
+            }
+        });
         widgets::row(ui, "Start page", |ui| {
             ui.checkbox(&mut settings.start_page, "Show when no file is named");
         });
