@@ -52,6 +52,19 @@ fn probed(cells: Vec<CellDetail>) -> Session {
     session
 }
 
+/// A picture of which the cells behind a pixel are known, one of each kind.
+pub(super) fn looked_into() -> Session {
+    let classes = [
+        (CellClass::Transparent, BrickMask::default(), 12),
+        (CellClass::Full, BrickMask::ALL, 1200),
+        (CellClass::Mixed, BrickMask::ALL, 900),
+        (CellClass::SuperPixel, BrickMask::default(), 340),
+        (CellClass::Occluded, BrickMask::default(), 34),
+    ];
+    let cells = (2_u32..).zip(classes);
+    probed(cells.map(|(layer, (class, sampled, particles))| cell(layer, class, sampled, particles)).collect())
+}
+
 #[test]
 fn until_the_cells_are_known_it_says_that_it_looks() {
     assert_written(&inspector(pictured(fluid(), Stats::default())), &["Pixel 10, 12", "Looking…"]);

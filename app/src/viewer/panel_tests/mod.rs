@@ -18,6 +18,7 @@ mod quantity;
 mod sampling;
 mod saved;
 mod selection;
+mod snapshots;
 mod timeline;
 mod toolbar;
 

@@ -54,15 +54,45 @@ fn the_panel_turns_the_display_over_the_picture_on() {
     assert_eq!(harness.state().1, [Action::Performance]);
 }
 
-fn over_picture(session: Session) -> Harness<'static, (Session, Hud)> {
+/// The display over a picture that fills the window.
+pub(super) fn over(ui: &mut egui::Ui, (session, hud): &mut (Session, Hud)) {
+    hud.show(ui, session, None, ui.max_rect());
+}
+
+/// The open display of a session in which something moved for a while: coarser, with larger tolerances, and
+/// at last at rest.
+pub(super) fn drawn_for_a_while() -> (Session, Hud) {
+    let mut session = fluid();
+    session.budget.on = true;
+    for number in 0..80_u32 {
+        let mut shown = shown(&session, stats());
+        let moving = number < 78;
+        let wave = 0.5 - 0.5 * f64::from(number % 40) / 40.0;
+        let times = &mut shown.stats.milliseconds;
+        (times.analysis, times.ray_cast) = (4.0 + 10.0 * wave, 10.25 + 16.0 * wave);
+        shown.divisor = if moving { 1 + number / 20 } else { 1 };
+        if moving && number >= 12 {
+            shown.sampling.tolerance = Some(0.004 + 0.0005 * f64::from(number - 12).min(16.0));
+        }
+        shown.drawn = Some(Drawn { moving, preparing: 1.5, milliseconds: 22.0 + 28.0 * wave });
+        session.note(&Report::Picture(Box::new(shown)));
+    }
+    (session, open())
+}
+
+fn open() -> Hud {
     let mut hud = Hud::default();
     hud.open = true;
+    hud
+}
+
+fn over_picture(session: Session) -> Harness<'static, (Session, Hud)> {
     let mut harness = Harness::builder().with_size(egui::vec2(960.0, 700.0)).build_ui_state(
-        |ui, (session, hud): &mut (Session, Hud)| {
+        |ui, state: &mut (Session, Hud)| {
             theme::apply(ui.ctx());
-            hud.show(ui, session, None, ui.max_rect());
+            over(ui, state);
         },
-        (session, hud),
+        (session, open()),
     );
     harness.run();
     harness

@@ -135,11 +135,10 @@ fn caption(painter: &Painter, rect: Rect, y: f32, text: &str) {
 /// The stages of a picture over one another.
 fn stack(painter: &Painter, rect: Rect, place: egui::Rangef, entry: &Entry, top: f64) {
     let height = |milliseconds: f64| (milliseconds / top) as f32 * rect.height();
-    let gap = if place.span() > 2.5 { 0.5 } else { 0.0 };
     let mut bottom = rect.bottom();
     for stage in Stage::ALL {
         let above = (bottom - height(entry.of(stage))).max(rect.top());
-        let part = Rect::from_x_y_ranges(place.min..=place.max - gap, above..=bottom);
+        let part = Rect::from_x_y_ranges(place, above..=bottom);
         match stage {
             // Beside the others in time, and not one of them.
             Stage::Read => painter.rect_filled(part, 0, colour(stage).gamma_multiply(0.35)),
@@ -148,7 +147,7 @@ fn stack(painter: &Painter, rect: Rect, place: egui::Rangef, entry: &Entry, top:
         bottom = above;
     }
     if entry.total() > top {
-        let cap = Rect::from_x_y_ranges(place.min..=place.max - gap, rect.top()..=rect.top() + 2.0);
+        let cap = Rect::from_x_y_ranges(place, rect.top()..=rect.top() + 2.0);
         painter.rect_filled(cap, 0, Color32::WHITE);
     }
 }
