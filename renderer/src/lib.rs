@@ -24,6 +24,14 @@
 //! stages; `bands` hands over rows of a picture that does not fit the host; `renderer` knows which stages a change makes stale, and skips the others. On demand,
 //! `read_cells` reads back what became of each cell ([`CellMap`], [`BundleDetail`]).
 //!
+//! # Two fields
+//!
+//! A [`Quantity`] may hold two fields, one for the colour of samples and one for their opacity. The shaders
+//! are written for either: the files in `stages/shared/fields/` say what a quantity, its sums and its bounds
+//! are, once for one field and once for two, and those for one field know nothing of a second. Both fields
+//! are bounded in every brick, and the bricks' colours are those over the bounds of the one, their opacities
+//! those over the bounds of the other: so the tolerance holds for two fields as for one.
+//!
 //! # Numbers
 //!
 //! Positions reach the device as two f32 each, in a unit close to the support radius. Before anything

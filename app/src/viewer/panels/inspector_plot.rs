@@ -146,15 +146,17 @@ fn brick_class(cell: &CellDetail, column: usize, brick: usize, super_pixels: boo
     }
 }
 
-/// The axis of u, with the colours of the transfer function along it.
+/// The axis of u, with the colours of the transfer function along it; of the field that decides the opacity,
+/// where that is another one, with the opacities in grey.
 fn scale(painter: &Painter, session: &Session, rect: Rect) {
     if let Ok(transfer) = TransferFunction::new(&session.view.transfer.points) {
         let steps = rect.height() as u32;
         for step in 0..steps {
-            let [r, g, b, _] = transfer.sample(1.0 - (step as f32 + 0.5) / steps as f32);
+            let [r, g, b, alpha] = transfer.sample(1.0 - (step as f32 + 0.5) / steps as f32);
+            let rgb = if session.opacity_field().is_some() { [alpha; 3] } else { [r, g, b] };
             let y = rect.top() + step as f32;
             let line = Rect::from_x_y_ranges(rect.left() - 7.0..=rect.left() - 2.0, y..=y + 1.0);
-            painter.rect_filled(line, 0, to_screen([r, g, b]));
+            painter.rect_filled(line, 0, to_screen(rgb));
         }
     }
     for (u, text) in [(0.0, "0"), (0.5, "½"), (1.0, "1")] {
@@ -164,7 +166,11 @@ fn scale(painter: &Painter, session: &Session, rect: Rect) {
         painter.text(place, Align2::RIGHT_CENTER, text, theme::small_font(), theme::FAINT);
     }
     let place = rect.left_top() + vec2(0.0, -3.0);
-    let text = "u, the quantity in its range: bounds in each cell, and in its parts along this pixel";
+    let what = match session.opacity_field() {
+        None => "u, the quantity in its range",
+        Some(_) => "u, the opacity's field in its range",
+    };
+    let text = format!("{what}: bounds in each cell, and in its parts along this pixel");
     painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::MUTED);
 }
 
