@@ -165,7 +165,7 @@ fn volumes(frame: &Frame) -> impl Fn(usize) -> f64 + Sync {
 /// with that of their opacity, where the view has one.
 pub fn quantity(frame: &Frame, particles: &ParticleSet, view: &QuantityView) -> Result<Quantity, SceneError> {
     let selection = Selection::new(frame, view.name.as_deref())?;
-    let colour = Quantity::new(particles, view.range, |row| selection.value(row));
+    let colour = Quantity::new(particles, view.spread(), |row| selection.value(row));
     let Some(opacity) = &view.opacity else { return Ok(colour) };
     let selection = match &opacity.name {
         Some(name) => Selection::new(frame, Some(name))?,

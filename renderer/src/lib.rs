@@ -46,6 +46,8 @@ pub mod bench;
 mod by_places;
 mod camera;
 mod cell_map;
+mod colour_map;
+pub mod colour_space;
 mod crowds;
 mod error;
 mod gpu;
@@ -56,6 +58,7 @@ mod pace;
 mod particles;
 mod picture;
 mod pilot;
+mod placement;
 mod plan;
 mod ray;
 mod read_cells;
@@ -75,19 +78,21 @@ pub use cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,
     CellMap, FieldInBrick, KnownValues, MapCell, Slope, bundle_of, column_of,
 };
+pub use colour_map::{ColourMap, MapKind};
 pub use error::{GpuError, RenderError, TooLarge};
 pub use gpu::{Gpu, GpuOptions};
 pub use inspect::GridCell;
 pub use kernel::Kernel;
 pub use particles::{Bounds, Extent, ParticleSet, Quantity, RawParticle, Rejected};
 pub use picture::Picture;
+pub use placement::{Placement, Scale, Spread};
 pub use ray::{Glance, Met, Sight};
 pub use renderer::{Progress, Renderer};
 pub use sampling::{Bound, Sampling, Without};
 pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
-pub use transfer::{ControlPoint, TransferFunction};
+pub use transfer::{ColourPoint, ControlPoint, TransferFunction};
 pub use view::{
-    AnnotationsView, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, OpacityView, ParticleView,
-    QuantityView, SamplingView, SelectView, TransferView, View, ViewError,
+    AnnotationsView, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, MapView, OpacityView,
+    OutsideView, ParticleView, QuantityView, SamplingView, SelectView, TransferView, View, ViewError,
 };

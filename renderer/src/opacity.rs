@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::particles::Quantity;
+use crate::placement::Placement;
 use crate::stages::shared::Fields;
 
 impl Quantity {
@@ -22,8 +23,8 @@ impl Quantity {
         let left_out = values.par_iter().filter(|&&pair| pair == rejected).count() as u64;
         Quantity {
             id: crate::particles::next_id(),
-            range: self.range,
-            opacity_range: Some(opacity.range),
+            placement: self.placement,
+            opacity_placement: Some(opacity.placement),
             rejected: left_out,
             values: bytemuck::cast_vec(values),
         }
@@ -31,11 +32,17 @@ impl Quantity {
 
     /// The values of the second field that are its 0 and 1; `None` where one field decides both.
     pub fn opacity_range(&self) -> Option<[f64; 2]> {
-        self.opacity_range
+        self.opacity_placement.map(|placement| placement.range())
+    }
+
+    /// Where values are on the device's axes: those that decide the colour, and those that decide the
+    /// opacity.
+    pub(crate) fn placements(&self) -> [Placement; 2] {
+        [self.placement, self.opacity_placement.unwrap_or(self.placement)]
     }
 
     pub(crate) fn fields(&self) -> Fields {
-        if self.opacity_range.is_some() { Fields::Two } else { Fields::One }
+        if self.opacity_placement.is_some() { Fields::Two } else { Fields::One }
     }
 
     /// The values of the particles with the indices `chosen`, in that order.

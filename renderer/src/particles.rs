@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::placement::{Placement, Scale, Spread};
+
 pub use verdicts::Extent;
 use verdicts::judge;
 
@@ -250,10 +252,10 @@ impl ParticleSet {
 /// for the colour and one for the opacity.
 pub struct Quantity {
     pub(crate) id: u64,
-    pub(crate) range: [f64; 2],
-    pub(crate) opacity_range: Option<[f64; 2]>,
+    pub(crate) placement: Placement,
+    pub(crate) opacity_placement: Option<Placement>,
     pub(crate) rejected: u64,
-    /// One number a particle, or two where there is an opacity range.
+    /// One number a particle, or two where there is a placement of the opacity.
     pub(crate) values: Vec<f32>,
 }
 
@@ -263,29 +265,35 @@ impl Quantity {
     /// Normalised values are kept within this distance of zero, so that sums stay finite.
     const LIMIT: f64 = 1e15;
 
-    /// Takes the quantity of each source row of `particles` from `value(row)`. `range` is u = 0 and
-    /// u = 1; the finite minimum and maximum over the whole frame, selected or not, where it is `None`. A range of no width is a threshold:
-    /// its own value is u = ½, interpolated values below it are 0 and those above it 1.
+    /// Takes the quantity of each source row of `particles` from `value(row)`. The range of `spread` is
+    /// u = 0 and u = 1; the finite minimum and maximum over the whole frame, selected or not, where it is
+    /// `None`, on a logarithmic scale those of what is positive. A range of no width is a threshold: its own value is u = ½, interpolated values
+    /// below it are 0 and those above it 1.
     pub fn new(
         particles: &ParticleSet,
-        range: Option<[f64; 2]>,
+        spread: impl Into<Spread>,
         value: impl Fn(usize) -> f64 + Sync,
     ) -> Quantity {
+        let spread = spread.into();
         let whole = |row: usize| if particles.is_bad(row) { f64::NAN } else { value(row) };
-        let [low, high] = range.unwrap_or_else(|| finite_range(particles.rows, whole));
+        let range = spread.range.unwrap_or_else(|| finite_range(particles.rows, spread.scale, whole));
         let value = |index: usize| value(particles.source_row(index));
+        let placement = Placement::new(range, spread.scale, spread.outside);
+        let [low, high] = range;
         // Halves first: high − low of two huge values of opposite sign may overflow.
         let half_width = high * 0.5 - low * 0.5;
         // A threshold is a range so narrow that nothing but the value itself falls inside it.
         let farthest = || {
-            let [least, most] = finite_range(particles.len(), value);
+            let [least, most] = finite_range(particles.len(), Scale::Linear, value);
             (most * 0.5 - low * 0.5).abs().max((least * 0.5 - low * 0.5).abs())
         };
-        let (scale, offset) = match half_width > 0.0 {
-            true => (half_width, 0.0),
-            false => ((farthest() / Self::LIMIT).max(f64::MIN_POSITIVE), 0.5),
+        let (scale, offset, origin) = match (placement.scale(), half_width > 0.0) {
+            // As many digits for the smallest values as for the largest.
+            (Scale::Log, _) => (high * 0.5, 0.0, 0.0),
+            (Scale::Linear, true) => (half_width, 0.0, low),
+            (Scale::Linear, false) => ((farthest() / Self::LIMIT).max(f64::MIN_POSITIVE), 0.5, low),
         };
-        let normalise = |q: f64| (q * 0.5 - low * 0.5) / scale + offset;
+        let normalise = |q: f64| placement.margined((q * 0.5 - origin * 0.5) / scale + offset);
         let values: Vec<f32> = (0..particles.len())
             .into_par_iter()
             .map(|index| match value(index) {
@@ -294,12 +302,17 @@ impl Quantity {
             })
             .collect();
         let rejected = values.par_iter().filter(|&&u| u == Self::REJECTED).count() as u64;
-        Quantity { id: next_id(), range: [low, high], opacity_range: None, rejected, values }
+        Quantity { id: next_id(), placement, opacity_placement: None, rejected, values }
     }
 
     /// The values that u = 0 and u = 1 stand for.
     pub fn range(&self) -> [f64; 2] {
-        self.range
+        self.placement.range()
+    }
+
+    /// Where values lie on the device's axis.
+    pub fn placement(&self) -> &Placement {
+        &self.placement
     }
 
     /// Particles left out because their quantity, or one of the two, is not finite.
@@ -326,15 +339,20 @@ pub(crate) fn next_id() -> u64 {
     NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
-/// Finite minimum and maximum; [0, 1] where nothing is finite.
-fn finite_range(count: usize, value: impl Fn(usize) -> f64 + Sync + Send) -> [f64; 2] {
+/// Finite minimum and maximum, of what is positive on a logarithmic scale; [0, 1] or [1, 10] of nothing.
+fn finite_range(count: usize, scale: Scale, value: impl Fn(usize) -> f64 + Sync + Send) -> [f64; 2] {
+    let counts = |q: &f64| q.is_finite() && (scale == Scale::Linear || *q > 0.0);
     let [low, high] = (0..count)
         .into_par_iter()
         .map(value)
-        .filter(|q| q.is_finite())
+        .filter(counts)
         .fold(|| EMPTY, |[low, high], q| [low.min(q), high.max(q)])
         .reduce(|| EMPTY, join);
-    if low <= high { [low, high] } else { [0.0, 1.0] }
+    match scale {
+        _ if low <= high => [low, high],
+        Scale::Linear => [0.0, 1.0],
+        Scale::Log => [1.0, 10.0],
+    }
 }
 
 /// The range of nothing.

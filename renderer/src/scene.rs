@@ -19,6 +19,7 @@ pub struct Scene {
     pub width: u32,
     pub height: u32,
     pub kernel: Kernel,
+    /// On the axis of the device's quantity ([`crate::Placement`]).
     pub transfer: TransferFunction,
     /// In the unit of the run.
     pub reference_length: f64,
@@ -50,7 +51,11 @@ impl Scene {
             width: view.image.width,
             height: view.image.height,
             kernel: view.particles.kernel,
-            transfer: TransferFunction::new(&view.transfer.points)?,
+            transfer: TransferFunction::on_device(
+                &view.transfer,
+                &quantity,
+                [view.quantity.below, view.quantity.above],
+            )?,
             reference_length,
             rate: view.sampling.rate,
             sampling: Sampling::new(&view.sampling),

@@ -1,8 +1,11 @@
 //! Transfer function: the colour and opacity of each value of the quantity (contract, section 1).
 
+mod device;
+
 use serde::{Deserialize, Serialize};
 
 use crate::view::ViewError;
+pub(crate) use device::joined;
 
 /// Colour (linear light) and opacity of a path of one reference length at the normalised value `u`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,6 +14,14 @@ pub struct ControlPoint {
     pub u: f32,
     pub rgb: [f32; 3],
     pub opacity: f32,
+}
+
+/// Colour (linear light) at the normalised value `u`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColourPoint {
+    pub u: f32,
+    pub rgb: [f32; 3],
 }
 
 /// Control points in ascending order of u, linear between, constant outside. Two points may share

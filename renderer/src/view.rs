@@ -2,15 +2,17 @@
 
 mod annotations;
 mod select;
+mod transfer;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::kernel::Kernel;
+use crate::placement::{Scale, Spread};
 use crate::sampling::Bound;
-use crate::transfer::{ControlPoint, TransferFunction};
 pub use annotations::{AnnotationsView, Ink};
 pub use select::{ClipBox, ClipPlane, Filter, SelectView};
+pub use transfer::{MapView, OutsideView, TransferView};
 
 mod opacity;
 
@@ -102,12 +104,43 @@ pub struct QuantityView {
     /// A field's name, `field.x` for a component; the first scalar field where it is absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// The finite extremes over the frame where it is absent.
+    /// The finite extremes over the frame where it is absent; on a logarithmic scale, those of what is
+    /// positive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
     /// Another field that decides the opacity; the same one where it is absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opacity: Option<OpacityView>,
+    #[serde(skip_serializing_if = "is_linear")]
+    pub scale: Scale,
+    /// What values below and above the range look like; as those at its ends where it is absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below: Option<OutsideView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub above: Option<OutsideView>,
+}
+
+fn is_linear(scale: &Scale) -> bool {
+    *scale == Scale::Linear
+}
+
+impl QuantityView {
+    /// Which values are the ends of the transfer function.
+    pub fn spread(&self) -> Spread {
+        Spread { range: self.range, scale: self.scale, outside: self.below.is_some() || self.above.is_some() }
+    }
+
+    fn validate(&self) -> Result<(), ViewError> {
+        check_range(self.range, "quantity.range")?;
+        if let Some([low, high]) = self.range.filter(|_| self.scale == Scale::Log) {
+            check(low > 0.0, "quantity.range", || {
+                format!("[{low}, {high}] does not begin above 0, as a logarithmic scale needs it")
+            })?;
+        }
+        self.opacity.as_ref().map_or(Ok(()), OpacityView::validate)?;
+        OutsideView::validate(&self.below, "quantity.below")?;
+        OutsideView::validate(&self.above, "quantity.above")
+    }
 }
 
 /// How particles become a continuous field.
@@ -119,32 +152,6 @@ pub struct ParticleView {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub support_radius: Option<f64>,
     pub kernel: Kernel,
-}
-
-/// The transfer function; without a reference length, a thirtieth of the run's diagonal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct TransferView {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reference_length: Option<f64>,
-    pub points: Vec<ControlPoint>,
-}
-
-impl Default for TransferView {
-    fn default() -> Self {
-        let point = |u, rgb, opacity| ControlPoint { u, rgb, opacity };
-        TransferView {
-            reference_length: None,
-            // Blue over grey to red in linear light, with the middle thin so that both ends show.
-            points: vec![
-                point(0.0, [0.03, 0.12, 0.60], 0.45),
-                point(0.25, [0.16, 0.45, 0.85], 0.25),
-                point(0.5, [0.75, 0.75, 0.70], 0.18),
-                point(0.75, [0.90, 0.36, 0.12], 0.30),
-                point(1.0, [0.65, 0.03, 0.03], 0.60),
-            ],
-        }
-    }
 }
 
 /// How finely the volume is sampled, and how much of that may be saved.
@@ -218,19 +225,7 @@ impl View {
         if let Some(annotations) = &self.annotations {
             annotations.validate()?;
         }
-        if let Some(length) = self.transfer.reference_length {
-            check(positive(length), "transfer.reference_length", || {
-                format!("{length} is not a positive length")
-            })?;
-        }
-        TransferFunction::new(&self.transfer.points).map(drop)
-    }
-}
-
-impl QuantityView {
-    fn validate(&self) -> Result<(), ViewError> {
-        check_range(self.range, "quantity.range")?;
-        self.opacity.as_ref().map_or(Ok(()), OpacityView::validate)
+        self.transfer.validate()
     }
 }
 

@@ -38,7 +38,7 @@ pub fn particle_set(particles: &[Particle]) -> Arc<ParticleSet> {
 /// The quantity of the same particles, and that of their opacity where the view has one, as the renderer takes
 /// them.
 pub fn quantity(set: &ParticleSet, particles: &[Particle], view: &View) -> Arc<Quantity> {
-    let colour = Quantity::new(set, view.quantity.range, |row| particles[row].quantity);
+    let colour = Quantity::new(set, view.quantity.spread(), |row| particles[row].quantity);
     Arc::new(match &view.quantity.opacity {
         Some(opacity) => {
             colour.with_opacity(&Quantity::new(set, opacity.range, |row| particles[row].opacity))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use renderer::{Bounds, ParticleSet, ParticleView, Quantity, Rejected, Scene, SelectView, View};
+use renderer::{Bounds, ParticleSet, ParticleView, Placement, Quantity, Rejected, Scene, SelectView, View};
 
 use crate::frames::Frame;
 use crate::scene::{self, Support};
@@ -20,8 +20,8 @@ pub struct Facts {
     pub support_radii: [f64; 2],
     /// What a view without a reference length stands for.
     pub reference_length: f64,
-    /// The values that u = 0 and u = 1 stand for.
-    pub range: [f64; 2],
+    /// Which values are u = 0 and u = 1, and where they are on the device's axis.
+    pub placement: Placement,
 }
 
 /// Particles and quantity of the last scene. A frame is recognised by its address, which its `Arc`
@@ -57,7 +57,7 @@ impl Preparation {
             bounds: whole.bounds,
             support_radii: whole.support_radii,
             reference_length: renderer::default_reference_length(&particles),
-            range: quantity.range(),
+            placement: *quantity.placement(),
         };
         Ok((Scene::new(particles, quantity, view)?, facts))
     }
@@ -103,7 +103,9 @@ impl Preparation {
         view: &View,
     ) -> anyhow::Result<Arc<Quantity>> {
         if let Some((known, quantity)) = &self.quantity
-            && *known == view.quantity
+            && known.name == view.quantity.name
+            && known.spread() == view.quantity.spread()
+            && known.opacity == view.quantity.opacity
         {
             return Ok(Arc::clone(quantity));
         }

@@ -1,6 +1,8 @@
 //! One bundle of the picture in view, and the pixel by which it was asked for.
 
-use renderer::{BUNDLE_SIDE, BundleDetail, Progress, RenderError, Renderer, Scene, bundle_of, column_of};
+use renderer::{
+    BUNDLE_SIDE, BundleDetail, Placement, Progress, RenderError, Renderer, Scene, bundle_of, column_of,
+};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probed {
@@ -10,6 +12,8 @@ pub struct Probed {
     pub pixel: [u32; 2],
     pub divisor: u32,
     pub bundle: BundleDetail,
+    /// Where the values in the bundle's cells are on the axis of the transfer function.
+    pub placement: Placement,
 }
 
 impl Probed {
@@ -27,7 +31,8 @@ impl Probed {
             return Ok(None);
         }
         let bundle = renderer.inspect_bundle(scene, bundle_of(pixel), progress)?;
-        Ok(Some(Probed { asked, pixel, divisor, bundle }))
+        let placement = *scene.quantity.placement();
+        Ok(Some(Probed { asked, pixel, divisor, bundle, placement }))
     }
 
     /// Number of the column of 2 × 2 rays in its bundle that the pixel belongs to.
@@ -63,7 +68,8 @@ mod tests {
             charged: [0.0; 16],
             cells: Vec::new(),
         };
-        let probed = Probed { asked: [70, 45], pixel: [23, 15], divisor: 3, bundle };
+        let placement = Placement::default();
+        let probed = Probed { asked: [70, 45], pixel: [23, 15], divisor: 3, bundle, placement };
         assert_eq!(probed.bundle_area(), ([48, 24], 24));
         assert_eq!(probed.column_area(), ([66, 42], 6));
         assert_eq!(probed.column(), column_of([23, 15]));

@@ -1,7 +1,7 @@
 //! The cells behind a pixel along depth: what the quantity may be in them, and what they charge.
 
 use egui::{Align2, Color32, Painter, Rect, Sense, Stroke, Ui, pos2, vec2};
-use renderer::{Bound, Brick, BundleDetail, CellClass, CellDetail, KnownValues, TransferFunction};
+use renderer::{Bound, Brick, BundleDetail, CellClass, CellDetail, KnownValues};
 
 use crate::viewer::probe::Probed;
 use crate::viewer::session::Session;
@@ -98,7 +98,8 @@ fn values(painter: &Painter, session: &Session, probed: &Probed, axis: &Axis, ho
     band(painter, axis, rect, hovered);
     let bar = |left: f32, right: f32, values: KnownValues, colour: Color32| {
         if let KnownValues::Between { low, high, .. } = values {
-            let y = |u: f32| rect.bottom() - u * rect.height();
+            let y =
+                |device: f32| rect.bottom() - probed.placement.u(f64::from(device)) as f32 * rect.height();
             let (top, bottom) = (y(high), y(low));
             // Never too thin to be seen.
             let middle = 0.5 * (top + bottom);
@@ -149,7 +150,7 @@ fn brick_class(cell: &CellDetail, column: usize, brick: usize, super_pixels: boo
 /// The axis of u, with the colours of the transfer function along it; of the field that decides the opacity,
 /// where that is another one, with the opacities in grey.
 fn scale(painter: &Painter, session: &Session, rect: Rect) {
-    if let Ok(transfer) = TransferFunction::new(&session.view.transfer.points) {
+    if let Ok(transfer) = session.view.transfer.function() {
         let steps = rect.height() as u32;
         for step in 0..steps {
             let [r, g, b, alpha] = transfer.sample(1.0 - (step as f32 + 0.5) / steps as f32);

@@ -1,7 +1,7 @@
 //! The cells behind a pixel as a table, from front to back.
 
 use egui::{Align2, Color32, Rect, ScrollArea, Sense, Ui, pos2, vec2};
-use renderer::{CellDetail, KnownValues};
+use renderer::{CellDetail, KnownValues, Placement};
 
 use crate::overlay::look;
 use crate::viewer::probe::Probed;
@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, probed: &Probed, height: f32, hovered: Option<u32>, now
         .auto_shrink([false, true])
         .show_rows(ui, ROW, cells.len(), |ui, rows| {
             for cell in &cells[rows] {
-                if row(ui, cell, probed.column(), hovered) {
+                if row(ui, probed, cell, hovered) {
                     *now = Some(cell.cell.layer);
                 }
             }
@@ -66,12 +66,12 @@ fn header(ui: &mut Ui) {
 }
 
 /// A line for a cell. Returns whether the mouse is over it.
-fn row(ui: &mut Ui, cell: &CellDetail, column: usize, hovered: Option<u32>) -> bool {
+fn row(ui: &mut Ui, probed: &Probed, cell: &CellDetail, hovered: Option<u32>) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     if hovered == Some(cell.cell.layer) {
         ui.painter().rect_filled(rect, 2, Color32::from_white_alpha(18));
     }
-    let texts = texts(cell, column);
+    let texts = texts(probed, cell);
     for (number, (text, (_, edge, _))) in texts.iter().zip(COLUMNS).enumerate() {
         let place = pos2(rect.left() + edge, rect.center().y);
         if number == CLASS {
@@ -90,7 +90,7 @@ fn row(ui: &mut Ui, cell: &CellDetail, column: usize, hovered: Option<u32>) -> b
 /// Where there is nothing to say.
 const NOTHING: &str = "–";
 
-fn texts(cell: &CellDetail, column: usize) -> [String; COLUMNS.len()] {
+fn texts(probed: &Probed, cell: &CellDetail) -> [String; COLUMNS.len()] {
     let decimals = decimals(cell.depths);
     let [near, far] = cell.depths.map(|depth| format!("{depth:.decimals$}"));
     let cheap = || NOTHING.to_owned();
@@ -99,13 +99,13 @@ fn texts(cell: &CellDetail, column: usize) -> [String; COLUMNS.len()] {
         (sampled, 0) => sampled.to_string(),
         (sampled, coarse) => format!("{sampled}+{coarse}"),
     };
-    let charged = cell.charged(column);
+    let charged = cell.charged(probed.column());
     [
         cell.cell.layer.to_string(),
         format!("{near}–{far}"),
         look(cell.cell.class).name.to_owned(),
         widgets::count(u64::from(cell.cell.particles)),
-        bounds(cell.values),
+        bounds(cell.values, &probed.placement),
         bricks,
         if charged > 0.0 { format!("{charged:.1e}") } else { cheap() },
     ]
@@ -117,11 +117,15 @@ fn decimals([near, far]: [f64; 2]) -> usize {
     (1.0 - step.log10().floor()).clamp(0.0, 6.0) as usize
 }
 
-fn bounds(values: KnownValues) -> String {
+/// On the axis of the transfer function.
+fn bounds(values: KnownValues, placement: &Placement) -> String {
     match values {
         KnownValues::Unknown => NOTHING.to_owned(),
         KnownValues::Empty => "empty".to_owned(),
-        KnownValues::Between { low, high, .. } => format!("{low:.3}–{high:.3}"),
+        KnownValues::Between { low, high, .. } => {
+            let [low, high] = [low, high].map(|device| placement.u(f64::from(device)));
+            format!("{low:.3}–{high:.3}")
+        }
     }
 }
 
@@ -141,7 +145,8 @@ mod tests {
     fn bounds_are_short() {
         let between = KnownValues::Between { low: 0.12345, high: 1.0, covered: true };
         assert_eq!(
-            [between, KnownValues::Empty, KnownValues::Unknown].map(bounds),
+            [between, KnownValues::Empty, KnownValues::Unknown]
+                .map(|values| bounds(values, &Placement::default())),
             ["0.123–1.000", "empty", "–"]
         );
     }
