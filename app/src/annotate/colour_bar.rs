@@ -28,7 +28,7 @@ pub fn draw(drawing: &mut Drawing, subject: &Subject, label: &str) {
     let bottom = (top + height).round();
     drawing.gradient([left, top], [right, bottom], colours(subject));
     let letters = drawing.palette().letters;
-    for tick in ticks(range) {
+    for tick in ticks(range, subject.scale) {
         let y = bottom - tick.share * (bottom - top);
         drawing.line([left - 0.35 * em, y], [left, y], 0.6, letters);
         drawing.text([left - 0.6 * em, y], [END, MIDDLE], 0.92, &tick.label, letters);

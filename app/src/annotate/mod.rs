@@ -13,7 +13,7 @@ mod scale_bar;
 mod stamp;
 mod ticks;
 
-use renderer::{AnnotationsView, Camera, Scene, TransferFunction, View};
+use renderer::{AnnotationsView, Camera, Scale, Scene, TransferFunction, View};
 
 use crate::frames::Frame;
 use crate::image_file::{Format, Pixels};
@@ -29,6 +29,8 @@ pub struct Subject<'a> {
     pub quantity: Option<String>,
     /// The values at both ends of the transfer function, where they are known.
     pub range: Option<[f64; 2]>,
+    pub scale: Scale,
+    /// Over u, from the low end of the range to the high one.
     pub transfer: &'a TransferFunction,
     pub time: Option<f64>,
     /// The frame's number in the run.
@@ -58,10 +60,12 @@ impl Annotations {
             Some(camera) => camera.settled(bounds, margin, size[0] / size[1]),
             None => Camera::overview(bounds, margin, size[0] / size[1]),
         };
+        let transfer = view.transfer.function().ok()?;
         let subject = Subject {
             quantity: view.quantity.name.clone().or_else(|| Selection::default_of(frame).name()),
             range: Some(scene.quantity.range()),
-            transfer: &scene.transfer,
+            scale: scene.quantity.placement().scale(),
+            transfer: &transfer,
             time: frame.metadata.time,
             frame: number,
             projection: Projection::of(&scene.camera, size),

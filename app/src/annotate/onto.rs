@@ -107,6 +107,7 @@ mod tests {
             far: None,
         };
         let subject = Subject {
+            scale: renderer::Scale::Linear,
             quantity: Some("density".into()),
             range: Some([0.0, 1.0]),
             transfer: &transfer,

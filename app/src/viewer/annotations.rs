@@ -2,7 +2,7 @@
 
 use egui::epaint::Mesh;
 use egui::{Color32, FontId, Painter, Pos2, Rect, Shape as Painted, Stroke, Ui, pos2, vec2};
-use renderer::{AnnotationsView, TransferFunction};
+use renderer::AnnotationsView;
 
 use crate::annotate::{self, Drawing, Shape, Subject};
 use crate::scene::Selection;
@@ -24,12 +24,13 @@ pub fn show(ui: &Ui, session: &Session, rect: Rect, colour_bar: bool) {
 fn drawing(session: &Session, look: &AnnotationsView, size: egui::Vec2) -> Option<Drawing> {
     let camera = session.camera?;
     let (index, frame) = session.frame()?;
-    let transfer = TransferFunction::new(&session.view.transfer.points).ok()?;
+    let transfer = session.view.transfer.function().ok()?;
     let name = session.view.quantity.name.clone();
     let [width, height] = [size.x, size.y].map(f64::from);
     let subject = Subject {
         quantity: name.or_else(|| Selection::default_of(frame).name()),
         range: session.range(),
+        scale: session.view.quantity.scale,
         transfer: &transfer,
         time: frame.metadata.time,
         frame: *index,

@@ -47,7 +47,8 @@ fn probed(cells: Vec<CellDetail>) -> Session {
         charged: [0.0025; 16],
         cells,
     };
-    shown.probed = Some(Arc::new(Probed { asked: [10, 12], pixel: [10, 12], divisor: 1, bundle }));
+    let placement = Default::default();
+    shown.probed = Some(Arc::new(Probed { asked: [10, 12], pixel: [10, 12], divisor: 1, bundle, placement }));
     session.note(&Report::Picture(Box::new(shown)));
     session
 }
