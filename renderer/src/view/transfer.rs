@@ -149,7 +149,6 @@ impl OutsideView {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::view::View;
 
     fn read(transfer: &str) -> Result<View, String> {
