@@ -98,7 +98,7 @@ fn another_field_may_decide_the_opacity() {
     let set = particles(&frame, Some(0.1)).unwrap();
     let both = |name: Option<&str>| {
         let opacity = Some(OpacityView { name: name.map(str::to_owned), range: None });
-        quantity(&frame, &set, &QuantityView { name: Some("dye".into()), range: None, opacity })
+        quantity(&frame, &set, &QuantityView { name: Some("dye".into()), opacity, ..Default::default() })
     };
     let by_density = both(Some("density")).unwrap();
     assert_eq!((by_density.range(), by_density.opacity_range()), ([0.0, 2.0], Some([5.0, 7.0])));

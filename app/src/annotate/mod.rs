@@ -22,6 +22,7 @@ use crate::scene::Selection;
 use drawing::{MIDDLE, Palette, START, Sheet};
 
 pub use drawing::{Drawing, Shape};
+pub use ticks::ticks;
 
 /// What is known of a picture.
 pub struct Subject<'a> {

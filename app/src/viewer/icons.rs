@@ -16,11 +16,15 @@ pub enum Icon {
     Cross,
     Undo,
     Redo,
+    Reverse,
 }
+
+/// Width of a button.
+pub const WIDTH: f32 = theme::ROW_HEIGHT + 4.0;
 
 /// A square button with a sign on it; `on` for a switch that is on.
 pub fn button(ui: &mut Ui, icon: Icon, name: &str, on: bool, enabled: bool) -> Response {
-    let size = vec2(theme::ROW_HEIGHT + 4.0, theme::ROW_HEIGHT);
+    let size = vec2(WIDTH, theme::ROW_HEIGHT);
     let sense = if enabled { Sense::click() } else { Sense::hover() };
     let (rect, response) = ui.allocate_exact_size(size, sense);
     let response = response.accessible_name(name);
@@ -99,5 +103,12 @@ fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
         }
         Icon::Undo => turn_back(-1.0),
         Icon::Redo => turn_back(1.0),
+        Icon::Reverse => {
+            for (y, side) in [(-3.0, 1.0), (3.0, -1.0)] {
+                painter.line_segment([at(-side * 6.0, y), at(side * 3.0, y)], Stroke::new(1.4, colour));
+                let head = vec![at(side * 2.0, y - 2.8), at(side * 6.5, y), at(side * 2.0, y + 2.8)];
+                painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
+            }
+        }
     }
 }

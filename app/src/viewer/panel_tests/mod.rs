@@ -21,6 +21,7 @@ mod selection;
 mod snapshots;
 mod timeline;
 mod toolbar;
+mod transfer;
 
 use std::path::PathBuf;
 use std::sync::Arc;

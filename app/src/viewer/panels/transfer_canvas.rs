@@ -2,9 +2,12 @@
 
 use egui::epaint::Mesh;
 use egui::{Color32, Painter, Pos2, Rect, Rgba, Shape, Stroke, StrokeKind, pos2};
-use renderer::{ControlPoint, TransferFunction};
+use renderer::{ColourPoint, ControlPoint, TransferView};
 
 use crate::viewer::theme;
+
+use super::transfer_edit::colour_nodes;
+use super::transfer_fields::Node;
 
 /// Smallest opacity that a logarithmic axis shows above zero.
 const LOG_FLOOR: f32 = 1e-4;
@@ -58,72 +61,98 @@ impl Axes {
     }
 }
 
-/// Moves a node, no farther than its neighbours: at a neighbour's u the two are a step.
-pub fn move_node(points: &mut [ControlPoint], index: usize, u: f32, opacity: f32) {
-    let low = if index == 0 { 0.0 } else { points[index - 1].u };
-    let high = points.get(index + 1).map_or(1.0, |next| next.u);
-    points[index].u = u.clamp(low, high);
-    points[index].opacity = opacity.clamp(0.0, 1.0);
+/// The colours below the canvas, and their nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Strip {
+    pub rect: Rect,
+    /// Height of the nodes' middles on the screen.
+    pub nodes: f32,
 }
 
-/// Adds a node of the colour that is there. Returns its place in the list.
-pub fn add_node(points: &mut Vec<ControlPoint>, u: f32, opacity: f32) -> usize {
-    let rgb = TransferFunction::new(points).map_or([1.0; 3], |transfer| {
-        let [r, g, b, _] = transfer.sample(u);
-        [r, g, b]
-    });
-    let index = points.partition_point(|point| point.u <= u);
-    points.insert(index, ControlPoint { u, rgb, opacity });
-    index
-}
+impl Strip {
+    /// Whether a place belongs to the strip rather than to the canvas.
+    pub fn holds(&self, place: Pos2) -> bool {
+        place.y >= self.rect.top() - 1.0
+    }
 
-/// A canvas with the histogram behind the opacity, and the colours in a strip below.
-pub fn paint(painter: &Painter, axes: &Axes, strip: Rect, points: &[ControlPoint], bars: &[u64]) {
-    let frame = axes.rect.expand2(egui::vec2(7.0, 7.0));
-    painter.rect_filled(frame, 4, theme::WELL);
-    histogram(painter, axes, bars);
-    grid(painter, axes);
-    let Ok(transfer) = TransferFunction::new(points) else { return };
-    gradient(painter, axes.rect, |u| {
-        let [r, g, b, opacity] = transfer.sample(u);
-        (axes.y(opacity), to_screen([r, g, b]).gamma_multiply(0.45))
-    });
-    gradient(painter, strip, |u| {
-        let [r, g, b, _] = transfer.sample(u);
-        (strip.top(), to_screen([r, g, b]))
-    });
-    outline(painter, axes, points);
-    painter.rect_stroke(strip, 2, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
-}
+    fn place(&self, u: f32) -> Pos2 {
+        pos2(self.rect.left() + u * self.rect.width(), self.nodes)
+    }
 
-/// The nodes, on top of everything.
-pub fn paint_nodes(
-    painter: &Painter,
-    axes: &Axes,
-    points: &[ControlPoint],
-    selected: Option<usize>,
-    under: Option<usize>,
-) {
-    for (index, point) in points.iter().enumerate() {
-        let chosen = selected == Some(index);
-        let radius = if chosen || under == Some(index) { 6.0 } else { 5.0 };
-        let ring = if chosen { Color32::WHITE } else { Color32::from_rgb(0xb4, 0xbc, 0xc7) };
-        let width = if chosen { 2.0 } else { 1.3 };
-        painter.circle(axes.place(point), radius, to_screen(point.rgb), Stroke::new(width, ring));
+    /// The node at the cursor, the nearest where there are several.
+    pub fn hit(&self, nodes: &[ColourPoint], cursor: Pos2) -> Option<usize> {
+        let distance = |index: &usize| (self.place(nodes[*index].u).x - cursor.x).abs();
+        let near = (0..nodes.len()).filter(|index| distance(index) <= 0.8 * REACH);
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }
 
-/// Particles in each bar, on a logarithmic axis: rare values matter as much as common ones.
-fn histogram(painter: &Painter, axes: &Axes, bars: &[u64]) {
+/// A canvas with the histogram behind the opacity, and the colours in a strip below.
+pub fn paint(
+    painter: &Painter,
+    axes: &Axes,
+    strip: &Strip,
+    transfer: &TransferView,
+    bars: &[u64],
+    plain_counts: bool,
+) {
+    let frame = axes.rect.expand2(egui::vec2(7.0, 7.0));
+    painter.rect_filled(frame, 4, theme::WELL);
+    histogram(painter, axes, bars, plain_counts);
+    grid(painter, axes);
+    let Ok(function) = transfer.function() else { return };
+    gradient(painter, axes.rect, |u| {
+        let [r, g, b, opacity] = function.sample(u);
+        (axes.y(opacity), to_screen([r, g, b]).gamma_multiply(0.45))
+    });
+    gradient(painter, strip.rect, |u| {
+        let [r, g, b, _] = function.sample(u);
+        (strip.rect.top(), to_screen([r, g, b]))
+    });
+    outline(painter, axes, &transfer.points);
+    painter.rect_stroke(strip.rect, 2, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
+}
+
+/// The nodes, on top of everything. `marked`: the one that is selected, and the one under the cursor.
+pub fn paint_nodes(
+    painter: &Painter,
+    axes: &Axes,
+    strip: &Strip,
+    transfer: &TransferView,
+    marked: [Option<Node>; 2],
+) {
+    let ring = |node: Node, small: f32| {
+        let [chosen, under] = marked.map(|marked| marked == Some(node));
+        let radius = if chosen || under { small + 1.0 } else { small };
+        let ring = if chosen { Color32::WHITE } else { Color32::from_rgb(0xb4, 0xbc, 0xc7) };
+        (radius, Stroke::new(if chosen { 2.0 } else { 1.3 }, ring))
+    };
+    for (index, node) in colour_nodes(transfer).unwrap_or_default().into_iter().enumerate() {
+        let (radius, stroke) = ring(Node::Colour(index), 3.8);
+        let place = strip.place(node.u);
+        let tip = pos2(place.x, strip.rect.bottom() - 1.0);
+        painter.line_segment([tip, place], Stroke::new(1.0, stroke.color));
+        painter.circle(place, radius, to_screen(node.rgb), stroke);
+    }
+    let function = transfer.function().ok();
+    for (index, point) in transfer.points.iter().enumerate() {
+        let [r, g, b, _] = function.as_ref().map_or([1.0; 4], |function| function.sample(point.u));
+        let (radius, stroke) = ring(Node::Opacity(index), 5.0);
+        painter.circle(axes.place(point), radius, to_screen([r, g, b]), stroke);
+    }
+}
+
+/// Particles in each bar; without `plain`, on a logarithmic axis: rare values matter as much as common ones.
+fn histogram(painter: &Painter, axes: &Axes, bars: &[u64], plain: bool) {
     let most = bars.iter().copied().max().unwrap_or(0);
     if most == 0 {
         return;
     }
-    let top = (1.0 + most as f32).ln();
+    let size = |bar: u64| if plain { bar as f32 } else { (1.0 + bar as f32).ln() };
     let width = axes.rect.width() / bars.len() as f32;
     let mut mesh = Mesh::default();
     for (index, bar) in bars.iter().enumerate() {
-        let height = (1.0 + *bar as f32).ln() / top * axes.rect.height();
+        let height = size(*bar) / size(most) * axes.rect.height();
         let left = axes.rect.left() + index as f32 * width;
         let corner = pos2(left, axes.rect.bottom() - height);
         let bar = Rect::from_min_max(corner, pos2(left + width, axes.rect.bottom()));
@@ -146,7 +175,7 @@ fn grid(painter: &Painter, axes: &Axes) {
 }
 
 /// Columns from the bottom of `rect` up to a height, each in its colour.
-fn gradient(painter: &Painter, rect: Rect, at: impl Fn(f32) -> (f32, Color32)) {
+pub fn gradient(painter: &Painter, rect: Rect, at: impl Fn(f32) -> (f32, Color32)) {
     let columns = (rect.width() / COLUMN).ceil().max(1.0) as u32;
     let mut mesh = Mesh::default();
     for column in 0..=columns {
@@ -211,30 +240,15 @@ mod tests {
     }
 
     #[test]
-    fn nodes_meet_their_neighbours_but_never_pass_them() {
-        let mut points = vec![point(0.0, 0.0), point(0.5, 0.5), point(0.7, 1.0)];
-        move_node(&mut points, 1, 0.9, 2.0);
-        assert_eq!((points[1].u, points[1].opacity), (0.7, 1.0));
-        move_node(&mut points, 0, -1.0, -1.0);
-        assert_eq!((points[0].u, points[0].opacity), (0.0, 0.0));
-        assert!(TransferFunction::new(&points).is_ok());
-    }
-
-    #[test]
-    fn a_new_node_has_the_colour_of_its_place() {
-        let mut points = vec![
-            ControlPoint { u: 0.0, rgb: [0.0; 3], opacity: 0.0 },
-            ControlPoint { u: 1.0, rgb: [1.0; 3], opacity: 1.0 },
-        ];
-        assert_eq!(add_node(&mut points, 0.25, 0.9), 1);
-        assert_eq!(points[1], ControlPoint { u: 0.25, rgb: [0.25; 3], opacity: 0.9 });
-    }
-
-    #[test]
     fn the_nearest_node_is_caught() {
         let points = [point(0.5, 0.5), point(0.52, 0.5), point(0.9, 0.1)];
         let axes = axes(false);
         assert_eq!(axes.hit(&points, axes.place(&points[1])), Some(1));
         assert_eq!(axes.hit(&points, pos2(10.0, 20.0)), None);
+        let strip = Strip { rect: Rect::from_min_max(pos2(10.0, 130.0), pos2(210.0, 142.0)), nodes: 148.0 };
+        let nodes = [0.5, 0.52].map(|u| ColourPoint { u, rgb: [0.0; 3] });
+        assert_eq!(strip.hit(&nodes, pos2(115.0, 140.0)), Some(1));
+        assert_eq!(strip.hit(&nodes, pos2(60.0, 140.0)), None);
+        assert!(strip.holds(pos2(60.0, 140.0)) && !strip.holds(pos2(60.0, 100.0)));
     }
 }
