@@ -8,7 +8,7 @@ use reference::Particle;
 use reference::device::{prepare, shared};
 use reference::random::Random;
 use reference::scenes::{Scene, grey, plain_view};
-use renderer::Kernel;
+use renderer::{Kernel, OpacityView};
 
 /// Balls in a cloud around the origin.
 fn cloud(seed: u64, support_radius: f64) -> Scene {
@@ -18,6 +18,7 @@ fn cloud(seed: u64, support_radius: f64) -> Scene {
         support_radius: support_radius * random.between(0.7, 1.3),
         volume: random.between(0.5, 2.0),
         quantity: random.unit(),
+        opacity: random.unit(),
     };
     let particles = (0..400).map(particle).collect();
     let mut scene = Scene { name: format!("cloud {seed}"), particles, view: plain_view(24, 20) };
@@ -35,6 +36,9 @@ fn a_ray_has_the_opacity_of_its_pixel() {
     ] {
         let mut scene = cloud(seed, radius);
         scene.view.particles.kernel = kernel;
+        // By another field than the colour, every other time.
+        let opacity = OpacityView { name: None, range: Some([0.2, 0.9]) };
+        scene.view.quantity.opacity = (seed % 2 == 0).then_some(opacity);
         let scene = prepare(&scene);
         let picture = shared().render(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
         let mut seen = 0;
@@ -52,12 +56,18 @@ fn a_ray_has_the_opacity_of_its_pixel() {
 
 /// Two balls behind one another on the axis of the camera, with the given quantities.
 fn two(front: f64, back: f64) -> (renderer::Scene, [DVec3; 2]) {
-    let mut view = plain_view(9, 9);
+    let mut view = plain_view(200, 200);
     let camera = view.camera.unwrap();
     let forward = (camera.target - camera.eye).normalize();
     let [near, far] = [camera.near.unwrap(), camera.far.unwrap()];
     let places = [0.3, 0.8].map(|share| camera.eye + (near + share * (far - near)) * forward);
-    let particle = |(position, quantity)| Particle { position, support_radius: 0.1, volume: 1.0, quantity };
+    let particle = |(position, quantity)| Particle {
+        position,
+        support_radius: 0.1,
+        volume: 1.0,
+        quantity,
+        opacity: 0.0,
+    };
     let particles = places.into_iter().zip([front, back]).map(particle).collect();
     // Nearly clear at 0, nearly opaque at 1, nothing at ½.
     view.transfer.points = vec![grey(0.0, 1.0, 0.05), grey(0.5, 1.0, 0.0), grey(1.0, 1.0, 0.9)];
@@ -70,7 +80,7 @@ fn two(front: f64, back: f64) -> (renderer::Scene, [DVec3; 2]) {
 fn the_place_that_is_seen_is_where_most_of_the_opacity_comes_from() {
     let sight = |front, back| {
         let (scene, places) = two(front, back);
-        let glance = scene.glance([4.5, 4.5]);
+        let glance = scene.glance([100.0, 100.0]);
         assert_eq!(glance.met.iter().map(|met| met.index).collect::<Vec<_>>(), [0, 1]);
         assert!(glance.met.iter().all(|met| met.distance < 1e-9));
         (glance.sight, places)

@@ -45,6 +45,12 @@ impl Quantity {
         if self.opacity_placement.is_some() { Fields::Two } else { Fields::One }
     }
 
+    /// What decides the opacity of the particle `index`, normalised.
+    pub(crate) fn opacity_of(&self, index: usize) -> f32 {
+        let stride = self.fields().count() as usize;
+        self.values[index * stride + stride - 1]
+    }
+
     /// The values of the particles with the indices `chosen`, in that order.
     pub(crate) fn gather(&self, chosen: &[u32]) -> Vec<f32> {
         let stride = self.fields().count() as usize;

@@ -267,8 +267,8 @@ impl Quantity {
 
     /// Takes the quantity of each source row of `particles` from `value(row)`. The range of `spread` is
     /// u = 0 and u = 1; the finite minimum and maximum over the whole frame, selected or not, where it is
-    /// `None`, on a logarithmic scale those of what is positive. A range of no width is a threshold: its own value is u = ½, interpolated values
-    /// below it are 0 and those above it 1.
+    /// `None`, on a logarithmic scale those of what is positive. A range of no width is a threshold: its
+    /// own value is u = ½, interpolated values below it are 0 and those above it 1.
     pub fn new(
         particles: &ParticleSet,
         spread: impl Into<Spread>,
@@ -322,11 +322,6 @@ impl Quantity {
 
     pub(crate) fn is_rejected(&self, index: usize) -> bool {
         self.values[index * self.fields().count() as usize] == Self::REJECTED
-    }
-
-    /// The normalised quantities of the colour and of the opacity.
-    pub(crate) fn values_of(&self, index: usize) -> [f64; 2] {
-        [f64::from(self.values[index]); 2]
     }
 
     pub(crate) fn id(&self) -> u64 {

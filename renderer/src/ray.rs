@@ -88,8 +88,8 @@ struct Ray<'a> {
     unit: f64,
 }
 
-/// Sums over the particles at one sample: w, w times the quantity of the colour, of the opacity.
-type Sums = [f64; 3];
+/// Sums over the particles at one sample: w, and w times what decides the opacity.
+type Sums = [f64; 2];
 
 impl Ray<'_> {
     /// The particles that the ray goes through between near and far. It looks at all of them: for a
@@ -160,7 +160,7 @@ impl Ray<'_> {
 
     /// What each sample adds to the opacity of the pixel.
     fn contributions(&self, pierced: &[Pierced]) -> Vec<f64> {
-        let mut sums: Vec<Sums> = vec![[0.0; 3]; self.slices.count as usize];
+        let mut sums: Vec<Sums> = vec![[0.0; 2]; self.slices.count as usize];
         for ball in pierced {
             let half = ((ball.radius * ball.radius - ball.miss) / self.direction.length_squared()).sqrt();
             // A sample more on each side: whether it lies inside is decided by its weight.
@@ -168,21 +168,20 @@ impl Ray<'_> {
                 |depth: f64| (depth * self.unit / self.slices.near).ln() / self.slices.log_step - 0.5;
             let first = number((ball.nearest - half).max(f64::MIN_POSITIVE)).floor().max(0.0) as usize;
             let last = number((ball.nearest + half).max(f64::MIN_POSITIVE)).ceil().max(0.0) as usize;
-            let values = self.scene.quantity.values_of(ball.index);
+            let value = f64::from(self.scene.quantity.opacity_of(ball.index));
             for (sample, sums) in sums.iter_mut().enumerate().take(last + 1).skip(first) {
                 let weight = self.weight(ball, self.slices.depth(sample as f64 + 0.5) / self.unit);
                 sums[0] += weight;
-                sums[1] += weight * values[0];
-                sums[2] += weight * values[1];
+                sums[1] += weight * value;
             }
         }
         let length = self.direction.length() / self.scene.reference_length;
         let mut transparency = 1.0;
-        let contribution = |(sample, [weight, _, opacity]): (usize, Sums)| {
+        let contribution = |(sample, [weight, value]): (usize, Sums)| {
             if weight <= 0.0 {
                 return 0.0;
             }
-            let alpha = f64::from(self.scene.transfer.sample((opacity / weight) as f32)[3]);
+            let alpha = f64::from(self.scene.transfer.sample((value / weight) as f32)[3]);
             let [from, to] = [0.0, 1.0].map(|edge| self.slices.depth(sample as f64 + edge));
             let opacity = -((to - from) * length * (-alpha).ln_1p()).exp_m1();
             let contribution = transparency * opacity;

@@ -34,6 +34,7 @@ use super::pointing::Pointed;
 use super::render_thread::{RenderThread, Report};
 use super::session::{Session, Tool};
 use super::shortcuts::Action;
+use super::statistics::Answer;
 use super::task::Outcome;
 use super::widgets::Areas;
 use super::{Options, Wake};
@@ -50,6 +51,7 @@ enum Done {
     Ranged(FieldRanges),
     Pointed(Box<Pointed>),
     Located(Located),
+    Statistics(Box<Answer>),
     Kept(&'static str, anyhow::Result<()>),
     Adapters(Vec<String>),
     VideosPossible(bool),
@@ -317,6 +319,7 @@ impl Desk {
                 }
                 Done::Pointed(pointed) => self.take_pointed(*pointed),
                 Done::Located(located) => self.take_located(located),
+                Done::Statistics(answer) => self.take_statistics(*answer),
             }
         }
     }

@@ -10,7 +10,7 @@ use super::panels::sampling::plain;
 use super::panels::toolbar::Modes;
 use super::panels::{
     annotations, camera, cells, distance, help, image, measured_error, messages, overlay_legend, particles,
-    performance, picked, quantity, saved, selection, start, timeline, toolbar,
+    performance, picked, quantity, saved, selection, start, statistics, timeline, toolbar,
 };
 use super::picture_view::PictureView;
 use super::shortcuts::Action;
@@ -75,6 +75,7 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     widgets::section(ui, "Clip and filter", false, |ui| {
         selection::show(ui, session, &mut picture.handles.shown);
     });
+    widgets::section(ui, "Statistics", false, |ui| statistics::show(ui, session));
     widgets::section(ui, "Sampling", true, |ui| {
         sampling.show(ui, session);
         saved::show(ui, session);

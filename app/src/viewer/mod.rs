@@ -41,6 +41,7 @@ mod render_thread;
 mod run;
 mod session;
 mod shortcuts;
+mod statistics;
 mod task;
 mod theme;
 mod tone;

@@ -62,7 +62,7 @@ pub fn show(ui: &Ui, picture: Rect, session: &Session) {
 
 /// What is told beside the mouse.
 fn words(session: &Session, pointed: &Pointed) -> String {
-    let Some(Seen { point, value, near }) = &pointed.seen else {
+    let Some(Seen { point, value, opacity, near }) = &pointed.seen else {
         return "Nothing is to be seen here".to_owned();
     };
     let quantity = session.shown_quantity().unwrap_or_else(|| "value".to_owned());
@@ -76,8 +76,14 @@ fn words(session: &Session, pointed: &Pointed) -> String {
             None => format!("\nnearest: row {}, {} away", near.row, widgets::on_scale(near.distance, scale)),
         }
     });
+    let opacity = opacity.as_ref();
+    let opacity = opacity
+        .map_or_else(String::new, |(name, value)| format!("\n{name} {} (opacity)", widgets::short(*value)));
     let met = widgets::count(pointed.met as u64);
-    format!("{quantity} {}\nat {place}{nearest}\n{met} particles along the ray", widgets::short(*value))
+    format!(
+        "{quantity} {}{opacity}\nat {place}{nearest}\n{met} particles along the ray",
+        widgets::short(*value)
+    )
 }
 
 /// A card beside the mouse, inside the picture.

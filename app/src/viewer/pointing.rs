@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use renderer::Scene;
+use renderer::{QuantityView, Scene};
 
 use crate::frames::Frame;
 use crate::scene::Selection;
@@ -16,8 +16,8 @@ pub struct Shot {
     pub scene: Arc<Scene>,
     /// Of the picture at full resolution, in pixels.
     pub size: [u32; 2],
-    /// The quantity's name, as the view has it.
-    pub quantity: Option<String>,
+    /// As the view has it.
+    pub quantity: QuantityView,
 }
 
 /// A place in the picture, in shares of its width and height from the upper left corner.
@@ -46,8 +46,9 @@ pub struct Pointed {
 /// A place in the world that is seen. Lengths in the unit of the run.
 pub struct Seen {
     pub point: DVec3,
-    /// The quantity as it is interpolated there.
+    /// The quantity as it is interpolated there; and that of the opacity, where it is another one.
     pub value: f64,
+    pub opacity: Option<(String, f64)>,
     /// Particles along the ray, the nearest to the point first.
     pub near: Vec<Near>,
 }
@@ -89,12 +90,21 @@ impl Question {
                 .collect();
             near.sort_by(|a, b| a.distance.total_cmp(&b.distance));
             near.truncate(NEAR);
-            let selection = Selection::new(&shot.frame, shot.quantity.as_deref());
-            let selection = selection.unwrap_or_else(|_| Selection::default_of(&shot.frame));
-            let sums = sight.around.iter().fold([0.0; 2], |[sum, weights], &(index, weight)| {
-                [sum + weight * selection.value(row(index)), weights + weight]
-            });
-            Seen { point: sight.point, value: sums[0] / sums[1], near }
+            let value = |name: Option<&str>| {
+                let selection = Selection::new(&shot.frame, name);
+                let selection = selection.unwrap_or_else(|_| Selection::default_of(&shot.frame));
+                let add = |[sum, weights]: [f64; 2], &(index, weight): &(usize, f64)| {
+                    [sum + weight * selection.value(row(index)), weights + weight]
+                };
+                let [sum, weights] = sight.around.iter().fold([0.0; 2], add);
+                sum / weights
+            };
+            let name = &shot.quantity.name;
+            let other = shot.quantity.opacity.as_ref().and_then(|opacity| opacity.name.clone());
+            let other = other.filter(|other| Some(other) != name.as_ref());
+            let opacity = other.map(|other| (other.clone(), value(Some(&other))));
+            let value = value(name.as_deref());
+            Seen { point: sight.point, value, opacity, near }
         });
         Pointed { place, click, seen, met: glance.met.len(), shot }
     }
@@ -123,7 +133,7 @@ mod tests {
         view.transfer.reference_length = Some(0.01);
         view.quantity.name = Some("heat".into());
         let (scene, _) = Preparation::default().scene(&frame, &view).unwrap();
-        Shot { frame, index: 0, scene: Arc::new(scene), size: [400, 300], quantity: view.quantity.name }
+        Shot { frame, index: 0, scene: Arc::new(scene), size: [400, 300], quantity: view.quantity }
     }
 
     fn point_at(shot: Shot, place: Place) -> Pointed {

@@ -25,6 +25,7 @@ use super::overlay::Overlay;
 use super::playback::{Arrival, Playback};
 use super::render_thread::Job;
 use super::run::Run;
+use super::statistics;
 pub use costs::{Costs, Entry, Stage};
 use history::History;
 pub use looking::{Looking, Tool};
@@ -61,6 +62,9 @@ pub struct Session {
     /// Of the fields of a frame, and whether they are wanted.
     pub field_ranges: Option<FieldRanges>,
     pub wants_field_ranges: bool,
+    /// Of the particles in the picture, and whether they are wanted.
+    pub statistics: Option<statistics::Answer>,
+    pub wants_statistics: bool,
     /// Adapter's name, and whether it is a program on the CPU.
     pub adapter: Option<(String, bool)>,
     /// Extremes of each quantity over the frames that were in view.
@@ -111,6 +115,8 @@ impl Session {
             analysis: None,
             field_ranges: None,
             wants_field_ranges: false,
+            statistics: None,
+            wants_statistics: false,
             adapter: None,
             seen: HashMap::new(),
             told: BTreeSet::new(),

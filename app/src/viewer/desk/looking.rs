@@ -6,6 +6,7 @@ use super::{Desk, Done};
 use crate::viewer::field_ranges::FieldRanges;
 use crate::viewer::picked::Located;
 use crate::viewer::pointing::Pointed;
+use crate::viewer::statistics::Answer;
 
 /// What is at work.
 #[derive(Default)]
@@ -13,6 +14,7 @@ pub(super) struct Inquiries {
     ranges: bool,
     pointing: bool,
     search: bool,
+    statistics: bool,
 }
 
 impl Desk {
@@ -31,6 +33,17 @@ impl Desk {
             self.inquiries.search = true;
             self.work(move || Done::Located(search.locate()));
         }
+        if self.session.wants_statistics
+            && !self.inquiries.statistics
+            && let Some(question) = self.session.statistics_question()
+        {
+            self.inquiries.statistics = true;
+            self.work(move || Done::Statistics(Box::new(question.answer())));
+        }
+        if !std::mem::take(&mut self.session.wants_statistics) {
+            // What nobody looks at must not keep a frame in memory.
+            self.session.statistics = None;
+        }
         self.find_ranges();
     }
 
@@ -45,12 +58,19 @@ impl Desk {
             let frame = Arc::clone(frame);
             self.work(move || Done::Ranged(FieldRanges::find(frame)));
         }
-        self.session.wants_field_ranges = false;
+        if !std::mem::take(&mut self.session.wants_field_ranges) {
+            self.session.field_ranges = None;
+        }
     }
 
     pub(super) fn take_field_ranges(&mut self, ranges: FieldRanges) {
         self.inquiries.ranges = false;
         self.session.field_ranges = Some(ranges);
+    }
+
+    pub(super) fn take_statistics(&mut self, answer: Answer) {
+        self.inquiries.statistics = false;
+        self.session.statistics = Some(answer);
     }
 
     pub(super) fn take_pointed(&mut self, pointed: Pointed) {

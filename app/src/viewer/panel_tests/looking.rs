@@ -24,7 +24,7 @@ fn draw(session: &mut Session) {
     let mut view = session.complete_view();
     (view.image.width, view.image.height) = (64, 64);
     let (scene, _) = Preparation::default().scene(&frame, &view).unwrap();
-    let quantity = view.quantity.name;
+    let quantity = view.quantity;
     picture.shot = Some(Shot { frame, index, scene: Arc::new(scene), size: [280, 280], quantity });
     session.note(&Report::Picture(Box::new(picture)));
 }

@@ -19,6 +19,7 @@ mod sampling;
 mod saved;
 mod selection;
 mod snapshots;
+mod statistics;
 mod timeline;
 mod toolbar;
 mod transfer;

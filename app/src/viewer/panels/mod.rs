@@ -35,6 +35,7 @@ pub mod sampling;
 pub mod saved;
 pub mod selection;
 pub mod start;
+pub mod statistics;
 pub mod timeline;
 pub mod toolbar;
 pub mod transfer_canvas;

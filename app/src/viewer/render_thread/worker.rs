@@ -65,7 +65,7 @@ impl Last {
             index,
             scene: Arc::clone(&self.scene),
             size: [self.view.image.width, self.view.image.height],
-            quantity: self.view.quantity.name.clone(),
+            quantity: self.view.quantity.clone(),
         }
     }
 

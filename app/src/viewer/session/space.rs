@@ -1,4 +1,6 @@
-//! Where the run is, and where that is in the picture.
+//! Where the run is, where that is in the picture, and what is counted of it.
+
+use std::sync::Arc;
 
 use renderer::Bounds;
 
@@ -6,6 +8,7 @@ use super::Session;
 use crate::projection::Projection;
 use crate::scene::Selection;
 use crate::viewer::orbit_camera::Screen;
+use crate::viewer::statistics::Question;
 
 impl Session {
     /// Where points of the world are in a picture of this size.
@@ -17,6 +20,19 @@ impl Session {
     pub fn scene_bounds(&self) -> Option<Bounds> {
         let (bounds, margin) = self.extent;
         bounds.map(|Bounds { min, max }| Bounds { min: min - margin, max: max + margin })
+    }
+
+    /// What is to be counted of the particles in the picture, where that is not known.
+    pub fn statistics_question(&self) -> Option<Question> {
+        let (index, frame) = self.frame.as_ref()?;
+        let question = Question {
+            index: *index,
+            frame: Arc::clone(frame),
+            select: self.view.select.clone(),
+            quantity: self.view.quantity.name.clone(),
+        };
+        let known = self.statistics.as_ref().is_some_and(|answer| question.is_same(&answer.question));
+        (!known).then_some(question)
     }
 
     /// The name of the quantity in view; `None` where the frame has no field.
