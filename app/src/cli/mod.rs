@@ -63,6 +63,9 @@ pub struct WindowArguments {
     pub view: ViewArguments,
     #[command(flatten)]
     pub device: DeviceArguments,
+    /// Show the newest frame, and every new one as the solver writes it
+    #[arg(long)]
+    pub follow: bool,
     /// Write a line on standard error for each thing that happens
     #[arg(long)]
     pub log_events: bool,
@@ -164,5 +167,6 @@ fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
         fixed_size: arguments.view.shown.size.is_some() || arguments.view.shown.view.is_some(),
         gpu: arguments.device.options(),
         log_events: arguments.log_events,
+        follow: arguments.follow,
     })
 }

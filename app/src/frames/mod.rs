@@ -14,6 +14,7 @@ mod sequence;
 mod spacing;
 mod stream;
 mod timed;
+mod watch;
 
 pub use column::{Column, Numbers};
 pub use frame::{Field, Frame, FrameError, Metadata};
@@ -25,3 +26,4 @@ pub use sequence::{Sequence, SequenceError, Source};
 pub use spacing::median_spacing;
 pub use stream::{Cached, FrameSource, FrameState, FrameStream};
 pub use timed::Timed;
+pub use watch::{Changes, Watcher};

@@ -100,6 +100,11 @@ impl Sequence {
         self.sources = places.map(|place| Arc::clone(&self.sources[place])).collect();
     }
 
+    /// Puts frames behind the last one.
+    pub fn append(&mut self, added: &[Arc<Source>]) {
+        self.sources.extend_from_slice(added);
+    }
+
     fn add(&mut self, argument: &Path) -> Result<(), SequenceError> {
         let text = argument.to_string_lossy();
         let error = |what: String| SequenceError { argument: text.clone().into_owned(), what };

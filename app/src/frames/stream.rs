@@ -47,13 +47,14 @@ pub struct FrameStream {
 }
 
 struct Shared {
-    sources: Vec<Arc<dyn FrameSource>>,
     state: Mutex<State>,
     changed: Condvar,
     wake: Box<dyn Fn() + Send + Sync>,
 }
 
 struct State {
+    /// One a slot.
+    sources: Vec<Arc<dyn FrameSource>>,
     slots: Vec<Slot>,
     playhead: usize,
     backwards: bool,
@@ -91,14 +92,10 @@ impl FrameStream {
         wake: impl Fn() + Send + Sync + 'static,
     ) -> FrameStream {
         let slots = sources.iter().map(|_| Slot::default()).collect();
-        let state = State { slots, playhead: 0, backwards: false, budget, stopped: false };
-        let shared = Arc::new(Shared {
-            sources,
-            state: Mutex::new(state),
-            changed: Condvar::new(),
-            wake: Box::new(wake),
-        });
-        for _ in 0..THREADS.min(shared.sources.len()) {
+        let state = State { sources, slots, playhead: 0, backwards: false, budget, stopped: false };
+        let shared =
+            Arc::new(Shared { state: Mutex::new(state), changed: Condvar::new(), wake: Box::new(wake) });
+        for _ in 0..THREADS {
             let shared = Arc::clone(&shared);
             thread::spawn(move || shared.work());
         }
@@ -107,11 +104,32 @@ impl FrameStream {
 
     /// Number of frames.
     pub fn len(&self) -> usize {
-        self.shared.sources.len()
+        self.shared.lock().sources.len()
     }
 
     pub fn is_empty(&self) -> bool {
-        self.shared.sources.is_empty()
+        self.len() == 0
+    }
+
+    /// Puts frames behind the last one.
+    pub fn append(&self, sources: Vec<Arc<dyn FrameSource>>) {
+        let mut state = self.shared.lock();
+        state.slots.extend(sources.iter().map(|_| Slot::default()));
+        state.sources.extend(sources);
+        drop(state);
+        self.shared.changed.notify_all();
+    }
+
+    /// Reads frame `index` again, where it was read or is being read, or could not be.
+    pub fn reload(&self, index: usize) {
+        let mut state = self.shared.lock();
+        let Some(slot) = state.slots.get_mut(index) else { return };
+        if let SlotState::Loading(loading) = &slot.state {
+            loading.cancel();
+        }
+        *slot = Slot::default();
+        drop(state);
+        self.shared.changed.notify_all();
     }
 
     /// Moves the playhead; never waits. An index past the end is the last frame.
@@ -230,8 +248,7 @@ impl Shared {
     }
 
     fn work(&self) {
-        while let Some((index, loading)) = self.next() {
-            let source = &self.sources[index];
+        while let Some((index, source, loading)) = self.next() {
             // A reader that panics must not take the thread, and with it all later frames, along.
             let frame = catch_unwind(AssertUnwindSafe(|| source.load(&loading)))
                 .unwrap_or_else(|_| Err(anyhow::anyhow!("reading it failed in an unforeseen way")));
@@ -250,7 +267,7 @@ impl Shared {
     }
 
     /// Waits for a frame worth reading; `None` once the stream is gone.
-    fn next(&self) -> Option<(usize, Arc<Loading>)> {
+    fn next(&self) -> Option<(usize, Arc<dyn FrameSource>, Arc<Loading>)> {
         let mut state = self.lock();
         loop {
             if state.stopped {
@@ -259,7 +276,7 @@ impl Shared {
             if let Some(index) = state.choose() {
                 let loading = Arc::new(Loading::default());
                 state.slots[index].state = SlotState::Loading(Arc::clone(&loading));
-                return Some((index, loading));
+                return Some((index, Arc::clone(&state.sources[index]), loading));
             }
             state = self.sleep(state);
         }

@@ -148,6 +148,7 @@ impl Desk {
         };
         troubles.into_iter().for_each(|trouble| desk.session.complain(trouble));
         desk.open(&options.sequence, &options.files);
+        desk.session.follow(options.follow);
         if options.files.is_empty() {
             // Who names no run wants to see what this is, or to go on.
             desk.session.toggle_playing();
@@ -242,6 +243,7 @@ impl Desk {
             Action::PlayPause => session.toggle_playing(),
             Action::StepForward | Action::StepBack => {
                 session.playback.pause();
+                session.follow(false);
                 session.step(action == Action::StepForward);
             }
             Action::First => session.jump(0),

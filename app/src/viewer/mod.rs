@@ -22,6 +22,7 @@ mod kept;
 mod keymap;
 mod layers;
 mod layout;
+mod live;
 mod measurement;
 mod messages;
 mod orbit_camera;
@@ -68,6 +69,8 @@ pub struct Options {
     /// Whether to write one line on standard error for each thing that happens. With it, F12 takes
     /// the window's graphics device away, for tests of what follows from that.
     pub log_events: bool,
+    /// Whether the newest frame is shown, and every new one as it is written.
+    pub follow: bool,
 }
 
 /// Tells the window from another thread that there is something new.

@@ -46,6 +46,11 @@ impl Playback {
         Playback { looping: self.looping, speed: self.speed, ..Playback::new(count) }
     }
 
+    /// Goes on in a sequence that has become longer.
+    pub fn extend(&mut self, count: usize) {
+        self.count = self.count.max(count);
+    }
+
     pub fn count(&self) -> usize {
         self.count
     }

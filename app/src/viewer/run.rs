@@ -1,11 +1,13 @@
 //! An open run: its frames, and the stream that reads them ahead.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::frames::{FrameSource, FrameStream, Sequence, Timed};
+use crate::frames::{Changes, FrameSource, FrameStream, Sequence, Source, Timed};
 
 use super::Wake;
+use super::live::Live;
 
 pub struct Run {
     /// For the window's title: the file, or what the files have in common.
@@ -16,6 +18,9 @@ pub struct Run {
     sources: Vec<Arc<Timed>>,
     pub sequence: Sequence,
     pub stream: FrameStream,
+    live: Option<Live>,
+    /// Files that may be half written; `None` until the files of a live run were looked at.
+    unsettled: Option<HashSet<PathBuf>>,
 }
 
 impl Run {
@@ -31,7 +36,48 @@ impl Run {
         let sources: Vec<Arc<Timed>> = sequence.frame_sources().into_iter().map(Timed::new).collect();
         let timed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
         let stream = FrameStream::new(timed, cache, move || wake());
-        Run { title, names, sources, sequence: sequence.clone(), stream }
+        Run { title, names, sources, sequence: sequence.clone(), stream, live: None, unsettled: None }
+    }
+
+    /// Looks after the files that `paths`, of which this run was made, name from now on.
+    pub fn watch(&mut self, paths: &[PathBuf], wake: &Wake) {
+        self.live = Live::start(paths, &self.sequence, wake);
+    }
+
+    pub fn is_live(&self) -> bool {
+        self.live.is_some()
+    }
+
+    /// What was found out about the files since the last call.
+    pub fn take_changes(&mut self) -> Vec<Changes> {
+        let changes = self.live.as_ref().map(Live::take).unwrap_or_default();
+        if let Some(last) = changes.last() {
+            self.unsettled = Some(last.unsettled.clone());
+        }
+        changes
+    }
+
+    /// Whether frame `index` may be still being written, so that it is no wonder if it cannot be read.
+    pub fn is_unsettled(&self, index: usize) -> bool {
+        let path = self.sequence.sources().get(index).and_then(|source| source.path());
+        let unsettled = |path| self.unsettled.as_ref().is_none_or(|files| files.contains(path));
+        self.is_live() && path.is_some_and(unsettled)
+    }
+
+    /// Puts new frames behind the last one.
+    pub fn append(&mut self, added: &[Arc<Source>]) {
+        let new: Vec<Arc<Timed>> =
+            added.iter().map(|source| Timed::new(Arc::clone(source) as Arc<dyn FrameSource>)).collect();
+        self.names.extend(added.iter().map(|source| file_name(&source.name)));
+        self.stream.append(new.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect());
+        self.sources.extend(new);
+        self.sequence.append(added);
+    }
+
+    /// The frames that come from a file.
+    pub fn places(&self, path: &Path) -> Vec<usize> {
+        let sources = self.sequence.sources().iter().enumerate();
+        sources.filter(|(_, source)| source.path() == Some(path)).map(|(index, _)| index).collect()
     }
 
     /// Milliseconds that reading frame `index` took, told once for each time that it was read.

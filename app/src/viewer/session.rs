@@ -2,6 +2,7 @@
 
 mod costs;
 mod history;
+mod live;
 mod looking;
 mod picture;
 mod range;
@@ -71,6 +72,8 @@ pub struct Session {
     seen: HashMap<Option<String>, [f64; 2]>,
     /// Frames that were reported as bad.
     told: BTreeSet<usize>,
+    /// Whether the playhead goes to each new frame of a run that is being written.
+    following: bool,
     /// Frames of which it was said that particles are left out.
     told_left_out: BTreeSet<usize>,
     /// The frame whose picture failed, so that playing goes on.
@@ -120,6 +123,7 @@ impl Session {
             adapter: None,
             seen: HashMap::new(),
             told: BTreeSet::new(),
+            following: false,
             told_left_out: BTreeSet::new(),
             without_picture: None,
             extent: (None, 0.0),
@@ -150,6 +154,7 @@ impl Session {
         self.seen.clear();
         self.told.clear();
         self.told_left_out.clear();
+        self.following = false;
         self.extent = (None, 0.0);
         if !first {
             // The settings of another run's place and scale.
@@ -186,9 +191,14 @@ impl Session {
     /// Why the frame at the playhead is not in view, where it cannot be.
     pub fn trouble(&self) -> Option<Arc<str>> {
         match self.run.as_ref()?.stream.get(self.playback.index()) {
-            FrameState::Failed(why) => Some(why),
+            FrameState::Failed(why) if !self.is_being_written() => Some(why),
             _ => None,
         }
+    }
+
+    /// Whether the frame at the playhead may be only half written yet.
+    fn is_being_written(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.is_unsettled(self.playback.index()))
     }
 
     /// Whether the frame at the playhead is still being read.
@@ -223,6 +233,8 @@ impl Session {
     }
 
     pub fn jump(&mut self, index: usize) {
+        // Who points at a frame wants to see that one.
+        self.following = false;
         self.playback.jump(index);
         self.request();
     }
@@ -244,6 +256,7 @@ impl Session {
 
     pub fn toggle_playing(&mut self) {
         self.playback.toggle();
+        self.following &= !self.playback.playing();
         self.log(if self.playback.playing() { "playing" } else { "paused" });
         self.request();
     }
@@ -257,6 +270,7 @@ impl Session {
     /// Looks for frames that have arrived, and moves the playhead while playing.
     pub fn poll(&mut self, now: Instant) {
         self.messages.expire(now);
+        self.take_changes();
         // Bad frames may follow one another, and what comes after them may be in memory already.
         for _ in 0..=self.playback.count() {
             let index = self.playback.index();
@@ -278,6 +292,8 @@ impl Session {
         let Some(run) = &self.run else { return };
         match run.stream.get(index) {
             FrameState::Ready(frame) => self.arrive(index, frame),
+            // It is read again when it is whole.
+            FrameState::Failed(_) if run.is_unsettled(index) => {}
             FrameState::Failed(why) => self.pass_over(index, &why),
             FrameState::NotLoaded | FrameState::Loading => {}
         }

@@ -54,7 +54,9 @@ impl Desk {
         for note in sequence.notes() {
             self.session.messages.note(note.clone());
         }
-        self.session.open(Run::new(sequence, self.keeping.settings.frame_cache(), &self.wake));
+        let mut run = Run::new(sequence, self.keeping.settings.frame_cache(), &self.wake);
+        run.watch(paths, &self.wake);
+        self.session.open(run);
         self.picture.clear();
         self.opened(paths);
     }

@@ -21,6 +21,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
         });
         ui.add_space(6.0);
         speed(ui, session);
+        follow(ui, session);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
             position(ui, session);
@@ -61,6 +62,23 @@ fn speed(ui: &mut Ui, session: &mut Session) {
     });
     let response = response.response.accessible_name("Speed");
     response.on_hover_text("Frames a second while playing; never faster than pictures are drawn");
+}
+
+/// Whether to go along with a run that is being written.
+fn follow(ui: &mut Ui, session: &mut Session) {
+    if !session.is_live() {
+        return;
+    }
+    let on = session.is_following();
+    let button = egui::Button::new("Follow");
+    let button = if on { button.fill(theme::ACCENT_DEEP) } else { button };
+    let response = ui.add(button).accessible_name("Follow the newest").on_hover_text(
+        "Shows the newest frame, and every new one as soon as the solver has written it. Ends where you go to \
+         another frame",
+    );
+    if response.clicked() {
+        session.follow(!on);
+    }
 }
 
 /// Which frame this is, in words, from right to left.

@@ -1,0 +1,101 @@
+//! Runs that grow on the disk while they are shown.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+
+use renderer::View;
+
+use super::super::Session;
+use crate::frames::{FrameState, Sequence, Watcher};
+use crate::viewer::Wake;
+use crate::viewer::run::Run;
+
+fn write(folder: &Path, number: usize, particles: usize) {
+    let rows: String = (0..particles).map(|i| format!("{i},0,0\n")).collect();
+    std::fs::write(folder.join(format!("a_{number}.csv")), format!("x,y,z\n{rows}")).unwrap();
+}
+
+fn session(folder: &Path) -> (Session, Vec<PathBuf>, Wake) {
+    let (paths, wake): (_, Wake) = (vec![folder.to_owned()], Arc::new(|| {}));
+    let mut session = Session::new(View::default());
+    session.open(Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake));
+    (session, paths, wake)
+}
+
+fn until(session: &mut Session, what: &str, holds: impl Fn(&Session) -> bool) {
+    let start = Instant::now();
+    while !holds(session) {
+        assert!(start.elapsed() < Duration::from_secs(30), "{what} did not come about");
+        session.poll(Instant::now());
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn particles_in_view(session: &Session) -> Option<(usize, usize)> {
+    session.frame().map(|(index, frame)| (*index, frame.len()))
+}
+
+#[test]
+fn new_frames_lengthen_the_run_and_are_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    (1..3).for_each(|number| write(folder.path(), number, number));
+    let (mut session, paths, _) = session(folder.path());
+    let mut watcher = Watcher::new(paths.clone(), &Sequence::open(&paths).unwrap());
+    let later = SystemTime::now() + Duration::from_secs(3600);
+    let mut look = |session: &mut Session| (0..2).for_each(|_| session.take_change(&watcher.look(later)));
+    look(&mut session);
+    write(folder.path(), 3, 7);
+    look(&mut session);
+    assert_eq!((session.playback.count(), session.playback.index()), (3, 0), "who does not follow stays");
+    session.follow(true);
+    until(&mut session, "the newest frame", |session| particles_in_view(session) == Some((2, 7)));
+    write(folder.path(), 4, 8);
+    look(&mut session);
+    until(&mut session, "the next one", |session| particles_in_view(session) == Some((3, 8)));
+    session.jump(1);
+    write(folder.path(), 5, 9);
+    look(&mut session);
+    assert_eq!((session.playback.count(), session.playback.index()), (5, 1), "pointing at a frame ends it");
+
+    until(&mut session, "frame 1", |session| particles_in_view(session) == Some((1, 2)));
+    write(folder.path(), 2, 20);
+    look(&mut session);
+    look(&mut session);
+    until(&mut session, "its new content", |session| particles_in_view(session) == Some((1, 20)));
+    std::fs::remove_file(folder.path().join("a_2.csv")).unwrap();
+    look(&mut session);
+    let told = session.messages.list().last().unwrap().text.clone();
+    assert!(told.starts_with("a_2.csv: gone from the disk"), "{told}");
+    assert_eq!(particles_in_view(&session), Some((1, 20)), "what is in memory stays in view");
+}
+
+#[test]
+fn a_half_written_frame_is_waited_for_and_not_told() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a_1.csv"), "x,y,z\n0,0").unwrap();
+    let (mut session, paths, wake) = session(folder.path());
+    let mut run = Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake);
+    run.watch(&paths, &wake);
+    session.open(run);
+    until(&mut session, "the failure", |session| {
+        matches!(session.run().unwrap().stream.get(0), FrameState::Failed(_))
+    });
+    session.poll(Instant::now());
+    assert!(session.messages.list().is_empty() && session.trouble().is_none() && session.waiting());
+    write(folder.path(), 1, 5);
+    until(&mut session, "the whole frame", |session| particles_in_view(session) == Some((0, 5)));
+    assert!(session.messages.list().is_empty());
+}
+
+#[test]
+fn a_frame_that_stays_bad_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a_1.csv"), "x,y,z\n0,0").unwrap();
+    let (mut session, paths, wake) = session(folder.path());
+    let mut run = Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake);
+    run.watch(&paths, &wake);
+    session.open(run);
+    until(&mut session, "the message", |session| !session.messages.list().is_empty());
+    assert!(session.trouble().is_some());
+}
