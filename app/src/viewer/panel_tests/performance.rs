@@ -3,6 +3,8 @@ use egui_kittest::kittest::Queryable;
 use renderer::{Evaluations, Milliseconds, Stats};
 
 use super::{assert_written, fluid, panel, pictured, shown, texts};
+use crate::difference::Difference;
+use crate::viewer::measurement::{Measured, SpeedUp, State};
 use crate::viewer::panels::{budget, hud::Hud, performance};
 use crate::viewer::render_thread::{Drawn, Report};
 use crate::viewer::session::Session;
@@ -107,6 +109,27 @@ fn the_display_tells_the_last_picture_and_the_one_under_the_mouse() {
     harness.hover_at(bars.right_top() + egui::vec2(-4.0, 20.0));
     harness.run();
     assert_written(&harness, &["1 before, frame 0", "20.0 ms", "1/2", "6.2 ms"]);
+}
+
+#[test]
+fn the_share_of_full_sampling_is_told_where_it_is_known() {
+    let measured = Measured {
+        tolerance: 0.004,
+        error: Difference { max: 0.002, place: [0, 0], mean: 0.0, above: 0.0 },
+        errors: Vec::new(),
+        size: [1, 1],
+        speed_up: SpeedUp { time: 1.5, evaluations: 4.0, milliseconds: [20.0, 30.0] },
+    };
+    let measured = State::Done(Box::new(measured));
+    let harness = panel((drawn(), open()), move |ui, (session, hud)| {
+        hud.show(ui, session, Some(&measured), ui.max_rect());
+    });
+    assert_written(&harness, &["5.00 M, 25.0 % of full"]);
+    let mut session = fluid();
+    let mut in_full = shown(&session, Stats::default());
+    in_full.drawn = Some(Drawn { moving: false, preparing: 0.0, milliseconds: 1.0 });
+    session.note(&Report::Picture(Box::new(in_full)));
+    assert_written(&over_picture(session), &["0, all", "0, in full"]);
 }
 
 #[test]

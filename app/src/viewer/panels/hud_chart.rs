@@ -12,7 +12,9 @@ const LANE: f32 = 14.0;
 const GAP: f32 = 5.0;
 /// Room for what is written at the left.
 const LEFT: f32 = 62.0;
-/// Half of what rises above the axis is below the last tick.
+/// What takes more than so many times the median is cut off at the upper end.
+const USUAL: f64 = 4.0;
+/// Steps of the scale.
 const TICKS: u8 = 2;
 
 /// The colour of a stage.
@@ -97,14 +99,14 @@ impl Columns {
     }
 }
 
-/// Milliseconds at the upper end: a round number above all but the slowest twentieth, so that a single slow
-/// picture does not flatten the others.
+/// Milliseconds at the upper end: a round number above all pictures, but for those that take much longer
+/// than most. Full pictures at rest would flatten those of a movement.
 fn scale(costs: &Costs) -> f64 {
     let mut totals: Vec<f64> = costs.entries().map(Entry::total).collect();
     totals.sort_by(f64::total_cmp);
-    let usual =
-        totals.get((totals.len() * 19 / 20).min(totals.len().saturating_sub(1))).copied().unwrap_or(1.0);
-    round_up(usual.max(1e-3))
+    let median = totals.get(totals.len() / 2).copied().unwrap_or(1.0);
+    let longest = totals.last().copied().unwrap_or(1.0);
+    round_up(longest.min(USUAL * median).max(1e-3))
 }
 
 /// The next number of the form 1, 2, 3, 4, 5, 6, 8 times a power of ten.
