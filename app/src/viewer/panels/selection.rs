@@ -191,7 +191,7 @@ fn offset(ui: &mut Ui, clip: &mut ClipPlane, scene: &Bounds) {
         ui.spacing_mut().slider_width = ui.available_width() - number - ui.spacing().item_spacing.x;
         let slider = egui::Slider::new(&mut offset, -reach..=reach)
             .clamping(egui::SliderClamping::Never)
-            .custom_formatter(move |value, _| widgets::on_axis(value, reach));
+            .custom_formatter(move |value, _| widgets::on_scale(value, reach));
         let slider = ui.add(slider).accessible_name("Offset of the plane");
         if slider.on_hover_text("Distance from the middle of the scene, along the normal").changed() {
             clip.point += (offset - (clip.point - middle).dot(normal)) * normal;
