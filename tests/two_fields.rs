@@ -254,6 +254,23 @@ fn little_memory_makes_the_same_pictures() {
 }
 
 #[test]
+fn bands_make_the_same_picture() {
+    let scene = with_opacity(6, calm(17, 64, 48));
+    let mut prepared = prepare(&scene);
+    prepared.sampling.always_adaptive = true;
+    let whole = Image::from(&render(&mut shared(), &prepared));
+    let mut image = Image { pixels: Vec::new(), ..whole.clone() };
+    let mut take = |band: renderer::Band| {
+        image.pixels.extend(band.pixels);
+        ControlFlow::Continue(())
+    };
+    let go_on = &mut |_| ControlFlow::Continue(());
+    shared().render_bands(&prepared, 16, true, go_on, &mut take).unwrap_or_else(|error| panic!("{error}"));
+    let comparison = compare(&whole, &image);
+    assert!(comparison.max <= 1e-4, "{comparison}");
+}
+
+#[test]
 fn what_is_known_of_one_field_is_not_taken_for_two() {
     let mut renderer = shared();
     let both = prepare(&crowded());

@@ -241,6 +241,26 @@ mod tests {
     }
 
     #[test]
+    fn the_field_of_the_opacity_is_a_setting_with_its_range() {
+        let (mut session, now) = session();
+        session.remember(now, false);
+        session.view.quantity.opacity = Some(renderer::OpacityView::default());
+        session.remember(now, true);
+        session.remember(now, false);
+        session.opacity_source = RangeSource::Seen;
+        session.remember(now, true);
+        session.remember(now, false);
+        session.undo();
+        assert_eq!(session.opacity_source, RangeSource::Frame);
+        assert!(session.view.quantity.opacity.is_some());
+        session.undo();
+        assert_eq!(session.view.quantity.opacity, None);
+        session.redo();
+        session.redo();
+        assert_eq!(session.opacity_source, RangeSource::Seen);
+    }
+
+    #[test]
     fn neither_the_first_camera_nor_the_size_of_the_window_is_a_step() {
         let mut session = Session::new(View::default());
         let now = Instant::now();
