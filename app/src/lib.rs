@@ -1,6 +1,8 @@
 //! The sphcast application: frames from files, the command line, and the window.
 
 mod annotate;
+pub mod camera_path;
+mod camera_text;
 pub mod cli;
 mod difference;
 mod export;

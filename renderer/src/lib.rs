@@ -49,6 +49,7 @@ mod cell_map;
 mod colour_map;
 pub mod colour_space;
 mod crowds;
+mod cut;
 mod error;
 mod gpu;
 mod inspect;
@@ -93,6 +94,7 @@ pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ColourPoint, ControlPoint, TransferFunction};
 pub use view::{
-    AnnotationsView, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, MapView, OpacityView,
-    OutsideView, ParticleView, QuantityView, SamplingView, SelectView, TransferView, View, ViewError,
+    AnnotationsView, Bookmark, CameraView, ClipBox, ClipPlane, Filter, ImageView, Ink, Keyframe, MapView,
+    OpacityView, OutsideView, ParticleView, PathView, QuantityView, SamplingView, SelectView, TransferView,
+    View, ViewError,
 };

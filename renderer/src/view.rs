@@ -1,6 +1,7 @@
 //! `View`: everything that defines a picture, as `view.json` holds it (contract, section 2).
 
 mod annotations;
+mod cameras;
 mod select;
 mod transfer;
 
@@ -11,6 +12,7 @@ use crate::kernel::Kernel;
 use crate::placement::{Scale, Spread};
 use crate::sampling::Bound;
 pub use annotations::{AnnotationsView, Ink};
+pub use cameras::{Bookmark, Keyframe, PathView};
 pub use select::{ClipBox, ClipPlane, Filter, SelectView};
 pub use transfer::{MapView, OutsideView, TransferView};
 
@@ -35,6 +37,11 @@ pub struct View {
     /// Over the picture; without them, saved pictures have none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub annotations: Option<AnnotationsView>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bookmarks: Vec<Bookmark>,
+    /// What moves the camera from frame to frame.
+    #[serde(skip_serializing_if = "PathView::is_empty")]
+    pub path: PathView,
 }
 
 /// Perspective camera. Lengths in the unit of the run, world space right-handed.
@@ -225,6 +232,8 @@ impl View {
         if let Some(annotations) = &self.annotations {
             annotations.validate()?;
         }
+        cameras::validate_bookmarks(&self.bookmarks)?;
+        self.path.validate()?;
         self.transfer.validate()
     }
 }
@@ -247,7 +256,8 @@ impl CameraView {
         !is_open(&self.eye) && !is_open(&self.target)
     }
 
-    fn validate(&self) -> Result<(), ViewError> {
+    /// Checks every setting's range; keys are those of the view's own camera.
+    pub fn validate(&self) -> Result<(), ViewError> {
         for (key, point) in [("camera.eye", self.eye), ("camera.target", self.target)] {
             check(is_open(&point) || point.is_finite(), key, || "is not finite".into())?;
         }

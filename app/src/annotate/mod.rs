@@ -13,8 +13,9 @@ mod scale_bar;
 mod stamp;
 mod ticks;
 
-use renderer::{AnnotationsView, Camera, Scale, Scene, TransferFunction, View};
+use renderer::{AnnotationsView, Scale, Scene, TransferFunction, View};
 
+use crate::camera_path;
 use crate::frames::Frame;
 use crate::image_file::{Format, Pixels};
 use crate::projection::Projection;
@@ -56,11 +57,7 @@ impl Annotations {
     pub fn new(view: &View, scene: &Scene, frame: &Frame, number: usize) -> Option<Annotations> {
         let look = view.annotations.as_ref().filter(|look| look.in_pictures)?;
         let size = [scene.width, scene.height].map(f64::from);
-        let (bounds, margin) = (scene.particles.bounds(), scene.particles.support_radii()[1]);
-        let camera = match view.camera {
-            Some(camera) => camera.settled(bounds, margin, size[0] / size[1]),
-            None => Camera::overview(bounds, margin, size[0] / size[1]),
-        };
+        let camera = camera_path::settled(view, &scene.particles);
         let transfer = view.transfer.function().ok()?;
         let subject = Subject {
             quantity: view.quantity.name.clone().or_else(|| Selection::default_of(frame).name()),

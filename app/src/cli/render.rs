@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use anyhow::bail;
+use renderer::{PathView, View};
 
 use super::console::Console;
 use super::{DeviceArguments, SequenceArguments, ViewArguments, WrongArguments};
+use crate::camera_path::camera_at;
 use crate::export::video::{USUAL_RATE, Video, VideoFormat};
-use crate::export::{Layer, Listener, Order, Output, Overlay, Shard, StatsFile, Summary, Target};
+use crate::export::{Layer, Listener, Order, Output, Overlay, Run, Shard, StatsFile, Summary, Target};
 use crate::image_file::Format;
 
 /// Render frames to picture files, without a window.
@@ -27,6 +29,9 @@ of --stats is named after the part, as in stats-3-of-16.json. A job with no fram
 A video is made by ffmpeg, which must be installed: H.264 in .mp4, VP9 in .webm, over black where the view has no \
 background.
 
+With a path in the view, the camera follows it: keyframes stand at the numbers of the frames. --turntable N makes N \
+pictures of one frame, numbered from 0, in as many turns as the view's path has, or one.
+
 A picture is written whole or not at all, and holds what it was made from (a text chunk of a PNG, an attribute of an \
 EXR, both named `sphcast`): the view with all settings, the name, size and time of change of the frame's file, its \
 number, and the version of the program. With --resume a picture of which all that is as it would be now is left as it \
@@ -36,6 +41,7 @@ Examples:
   sphcast render frame.vtu --view view.json --out frame.png --overlay cells.png
   sphcast render run/ --frames 10..20 --size 1024x1024 --out 'out-{:04}.exr' --stats stats.json
   sphcast render run/ --view view.json --size 1920x1080 --out film.mp4 --fps 30
+  sphcast render frame.vtu --turntable 36 --out 'around-{:02}.png'
   sphcast render run/ --view view.json --out frames/ --shard $SLURM_ARRAY_TASK_ID/16 --resume")]
 pub struct RenderArguments {
     #[command(flatten)]
@@ -61,6 +67,9 @@ pub struct RenderArguments {
     /// Make only part I of N of the pictures, 1/N to N/N: for several jobs or computers at a time
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
+    /// Write N pictures of one frame, from around the turntable, in place of one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    turntable: Option<u16>,
     /// Leave pictures as they are that are there and made from this very view, frame and program
     #[arg(long)]
     resume: bool,
@@ -70,8 +79,11 @@ pub struct RenderArguments {
 
 pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let console = Console::listen()?;
-    let run = arguments.sequence.open()?;
-    let view = arguments.view.resolve(&run.sequence)?;
+    let mut run = arguments.sequence.open()?;
+    let mut view = arguments.view.resolve(&run.sequence)?;
+    if let Some(pictures) = arguments.turntable {
+        turntable(&mut run, &mut view, usize::from(pictures))?;
+    }
     let frames = run.sequence.len();
     let wrong = |flag| move |what| WrongArguments(format!("{flag}: {what}"));
     let target = arguments.target(frames)?;
@@ -120,4 +132,23 @@ impl RenderArguments {
 fn rate(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|rate: &f64| (0.1..=1000.0).contains(rate));
     number.ok_or_else(|| "expected a number between 0.1 and 1000".to_owned())
+}
+
+/// Makes a run of one frame one of so many pictures around it. Keyframes are gone then: the camera is
+/// where they have it at that frame.
+fn turntable(run: &mut Run, view: &mut View, pictures: usize) -> Result<(), WrongArguments> {
+    if run.sequence.len() != 1 {
+        let what = "goes around one frame: choose it, as by --frames 12";
+        return Err(WrongArguments(format!("--turntable: {what}")));
+    }
+    let keyframes = PathView { keyframes: std::mem::take(&mut view.path.keyframes), revolutions: 0.0 };
+    if let Some(first) = keyframes.keyframes.first() {
+        let base = view.camera.filter(|camera| camera.is_settled()).unwrap_or(first.camera);
+        view.camera = Some(camera_at(&keyframes, &base, run.numbers[0] as f64, run.frames));
+    }
+    if view.path.revolutions == 0.0 {
+        view.path.revolutions = 1.0;
+    }
+    run.repeat(pictures);
+    Ok(())
 }

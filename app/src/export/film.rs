@@ -11,6 +11,7 @@ use renderer::{
 use super::listener::{INTERRUPTED, Listener, Stage};
 use super::survey::Survey;
 use super::{Shard, one_line};
+use crate::camera_path;
 use crate::frames::{Frame, FrameSource, FrameStream, Sequence, Source, Timed};
 use crate::scene::{self, Selection};
 
@@ -22,12 +23,15 @@ pub struct Run {
     pub sequence: Sequence,
     /// The number of each of them in the whole run.
     pub numbers: Vec<usize>,
+    /// Number of frames of the whole run.
+    pub frames: usize,
 }
 
 impl Run {
     /// All frames of `sequence`.
     pub fn whole(sequence: Sequence) -> Run {
-        Run { numbers: (0..sequence.len()).collect(), sequence }
+        let frames = sequence.len();
+        Run { numbers: (0..frames).collect(), sequence, frames }
     }
 
     /// Keeps every `step`-th frame of a range.
@@ -38,6 +42,18 @@ impl Run {
         self.sequence.select(range.clone().step_by(step));
         self.numbers = range.step_by(step).map(|place| self.numbers[place]).collect();
     }
+
+    /// Makes a run of its first frame alone, `pictures` times.
+    pub fn repeat(&mut self, pictures: usize) {
+        self.sequence.select(std::iter::repeat_n(0, pictures));
+        self.numbers = (0..pictures).collect();
+        self.frames = pictures;
+    }
+
+    /// Whether it is one frame, once or more often.
+    fn is_one_frame(&self) -> bool {
+        self.sequence.sources().windows(2).all(|pair| Arc::ptr_eq(&pair[0], &pair[1]))
+    }
 }
 
 /// The frames of a run, or a part of them, and the view they are shown in.
@@ -46,8 +62,9 @@ pub struct Film {
     /// Places in the run of the frames that are worked on.
     part: Vec<usize>,
     view: View,
+    /// One for each of the part; a frame that is repeated has but one.
     sources: Vec<Arc<Timed>>,
-    /// Of the part.
+    /// Of the sources.
     stream: FrameStream,
     listener: Arc<dyn Listener>,
     /// What the first frame of the run shows where the view does not say; the others show the same.
@@ -70,12 +87,15 @@ pub struct Fatal(pub String);
 impl Film {
     /// The frames of `run` that are `shard`'s, or all of them. What they have in common is that of the whole
     /// run, whatever the part.
-    pub fn new(run: Run, view: View, shard: Option<Shard>, listener: Arc<dyn Listener>) -> Film {
+    pub fn new(run: Run, mut view: View, shard: Option<Shard>, listener: Arc<dyn Listener>) -> Film {
         let taken = |place: &usize| shard.is_none_or(|shard| shard.takes(*place));
         let part: Vec<usize> = (0..run.sequence.len()).filter(taken).collect();
+        // They are no part of any picture.
+        view.bookmarks.clear();
         let all = run.sequence.frame_sources();
+        let read = if run.is_one_frame() { part.len().min(1) } else { part.len() };
         let sources: Vec<Arc<Timed>> =
-            part.iter().map(|&place| Timed::new(Arc::clone(&all[place]))).collect();
+            part[..read].iter().map(|&place| Timed::new(Arc::clone(&all[place]))).collect();
         let streamed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
         let stream = FrameStream::new(streamed, READ_AHEAD, || {});
         Film { run, part, view, sources, stream, listener, quantity: None }
@@ -101,7 +121,7 @@ impl Film {
 
     /// How long reading frame `index` took.
     pub fn read_milliseconds(&self, index: usize) -> f64 {
-        self.sources[index].milliseconds()
+        self.sources[self.slot(index)].milliseconds()
     }
 
     pub fn view(&self) -> &View {
@@ -123,9 +143,14 @@ impl Film {
         if self.interrupted() { bail!(INTERRUPTED) } else { Ok(()) }
     }
 
+    /// The source that frame `index` is read from.
+    fn slot(&self, index: usize) -> usize {
+        index.min(self.sources.len() - 1)
+    }
+
     /// Whether there is more than one frame in the run, of which some may fail.
     fn is_sequence(&self) -> bool {
-        self.run.sequence.len() > 1
+        !self.run.is_one_frame()
     }
 
     /// Does `work` on every frame, and returns the names of those that failed. Each is told when it
@@ -212,7 +237,7 @@ impl Film {
     /// Waits for frame `index`.
     pub fn frame(&self, index: usize) -> anyhow::Result<Arc<Frame>> {
         let name = self.name(index);
-        let frame = self.stream.wait(index).map_err(|why| anyhow::anyhow!("{name}: {why}"))?;
+        let frame = self.stream.wait(self.slot(index)).map_err(|why| anyhow::anyhow!("{name}: {why}"))?;
         for warning in &frame.warnings {
             self.say(&format!("warning: {name}: {warning}"));
         }
@@ -226,7 +251,10 @@ impl Film {
         if view.quantity.name.is_none() {
             view.quantity.name = self.quantity_of(frame, &name);
         }
-        let content = Content::new(frame, view).with_context(|| name.clone())?;
+        let mut content = Content::new(frame, view).with_context(|| name.clone())?;
+        let frames = self.run.frames;
+        content.view.camera =
+            camera_path::camera_of(&content.view, &content.particles, self.number(index), frames);
         if let Some(warning) = scene::rejected_warning(frame, &content.particles, &content.quantity) {
             self.say(&format!("warning: {name}: {warning}"));
         }

@@ -1,5 +1,6 @@
 //! Session, threads, dialogs and panels at work together: one call a frame.
 
+mod cameras;
 mod exporting;
 mod files;
 mod keeping;
@@ -65,9 +66,13 @@ struct Opening {
 }
 
 /// What only the window can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Order {
     FullScreen,
+    /// Gives the clipboard's text to [`Desk::paste_camera`].
+    PasteCamera,
+    /// Puts a text on the clipboard.
+    Copy(String),
     Quit,
 }
 
@@ -248,14 +253,18 @@ impl Desk {
             }
             Action::First => session.jump(0),
             Action::Last => session.jump(usize::MAX),
-            Action::Reset => session.reset_camera(),
-            Action::Look(side) => {
-                if let Some(camera) = &mut session.camera {
-                    camera.look_from(side);
-                }
-            }
-            Action::ZoomIn | Action::ZoomOut => self.picture.zoom(session, action == Action::ZoomIn),
-            Action::Fly => self.picture.flying = !self.picture.flying,
+            Action::Reset
+            | Action::Look(_)
+            | Action::ZoomIn
+            | Action::ZoomOut
+            | Action::Fly
+            | Action::Walk
+            | Action::CopyCamera
+            | Action::PasteCamera
+            | Action::Bookmark
+            | Action::GoTo(_)
+            | Action::Keyframe
+            | Action::FollowPath => self.move_camera(action),
             Action::Inspect => session.take_tool(Tool::Inspect),
             Action::Pick => session.take_tool(Tool::Pick),
             Action::Measure => session.take_tool(Tool::Measure),

@@ -9,10 +9,12 @@ use super::panels::preferences::Preferences;
 use super::panels::sampling::plain;
 use super::panels::toolbar::Modes;
 use super::panels::{
-    annotations, camera, cells, distance, help, image, measured_error, messages, overlay_legend, particles,
-    performance, picked, quantity, saved, selection, start, statistics, timeline, toolbar,
+    annotations, bookmarks, camera, camera_path, cells, distance, help, image, measured_error, messages,
+    overlay_legend, particles, performance, picked, quantity, saved, selection, start, statistics, timeline,
+    toolbar,
 };
-use super::picture_view::PictureView;
+use super::picture_view::{Motion, PictureView};
+use super::session::PictureFacts;
 use super::shortcuts::Action;
 use super::{theme, widgets};
 
@@ -20,8 +22,11 @@ use super::{theme, widgets};
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2] {
     let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 0));
     Panel::top("toolbar").exact_size(40.0).frame(bar).show(ui, |ui| {
-        let modes =
-            Modes { flying: desk.picture.flying, tool: desk.session.looking.tool, panels: desk.side_panel };
+        let modes = Modes {
+            flying: desk.picture.motion != Motion::Orbit,
+            tool: desk.session.looking.tool,
+            panels: desk.side_panel,
+        };
         toolbar::show(ui, &desk.session, modes, actions);
     });
     if desk.session.playback.count() > 1 {
@@ -84,7 +89,9 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     widgets::section(ui, "Cells", true, |ui| cells::show(ui, session, measurement, actions));
     widgets::section(ui, "Picture", false, |ui| image::show(ui, session, actions));
     widgets::section(ui, "Annotations", false, |ui| annotations::show(ui, session));
-    widgets::section(ui, "Camera", false, |ui| camera::show(ui, session));
+    widgets::section(ui, "Camera", false, |ui| camera::show(ui, session, &mut picture.motion, actions));
+    widgets::section(ui, "Bookmarks", false, |ui| bookmarks::show(ui, session, actions));
+    widgets::section(ui, "Camera path", false, |ui| camera_path::show(ui, session, actions));
     widgets::section(ui, "Particles", false, |ui| particles::show(ui, session));
     widgets::section(ui, "Performance", true, |ui| performance::show(ui, session, hud.open, actions));
 }
@@ -102,11 +109,18 @@ fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
 fn status(ui: &Ui, desk: &Desk, outer: Rect) {
     let picture = desk.session.picture.as_ref();
     let mut parts = Vec::new();
-    if desk.picture.flying {
+    if let Some(moving) = match desk.picture.motion {
+        Motion::Orbit => None,
+        Motion::Fly => Some("Flying"),
+        Motion::Walk => Some("Walking"),
+    } {
         parts.push(format!(
-            "Flying: W A S D Q E, drag to look, wheel for speed ({:.2})",
+            "{moving}: W A S D Q E, drag to look, wheel for speed ({:.2})",
             desk.picture.speed()
         ));
+    }
+    if let Some(picture) = picture {
+        parts.extend(cut(desk, picture));
     }
     match (desk.busy(), picture) {
         (Some(text), _) => parts.push(text.to_owned()),
@@ -149,6 +163,15 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
     let chip = Rect::from_center_size(place, size);
     ui.painter().rect_filled(chip, 10, Color32::from_black_alpha(170));
     ui.painter().galley(chip.min + vec2(9.0, 4.0), galley, theme::TEXT);
+}
+
+/// Says that a near or far that is fixed cuts off what would be in the picture.
+fn cut(desk: &Desk, picture: &PictureFacts) -> Option<String> {
+    let camera = desk.session.camera?;
+    let near = camera.near.and(picture.facts.cut[0]).map(|_| "near");
+    let far = camera.far.and(picture.facts.cut[1]).map(|_| "far");
+    let which: Vec<&str> = [near, far].into_iter().flatten().collect();
+    (!which.is_empty()).then(|| format!("Cut off by a fixed {}: see Camera", which.join(" and ")))
 }
 
 /// Why nothing is to be seen, where that is so.

@@ -7,7 +7,8 @@ use renderer::{Bounds, CameraView};
 
 use crate::projection::Projection;
 
-/// A camera on a turntable: it looks at `target` from a distance, and its horizon stays level.
+/// A camera on a turntable: it looks at `target` from a distance, and its horizon stays level unless it
+/// is rolled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitCamera {
     target: DVec3,
@@ -17,6 +18,8 @@ pub struct OrbitCamera {
     yaw: f64,
     /// Angle above the turntable, in radians, −π/2 to π/2.
     pitch: f64,
+    /// Angle around the view, in radians, −π to π: by so much up leans to the right.
+    roll: f64,
     /// The turntable's axle, a unit vector.
     axle: DVec3,
     /// Vertical field of view in degrees.
@@ -75,6 +78,7 @@ impl OrbitCamera {
             distance: 1.0,
             yaw: 0.0,
             pitch: 0.0,
+            roll: 0.0,
             axle: DVec3::Y,
             fov_y_degrees: DEFAULT_FOV,
             near: None,
@@ -96,21 +100,31 @@ impl OrbitCamera {
         let [right, up, front] = OVERVIEW;
         self.yaw = right.atan2(front);
         self.pitch = up.atan2(right.hypot(front));
+        self.roll = 0.0;
         (self.near, self.far) = (None, None);
     }
 
-    /// Takes the camera of a view; keeps the present axle where that shows the same picture.
+    /// Takes the camera of a view. Keeps the present axle where that shows the same picture, and where up
+    /// is the picture's own, which rolls the camera; any other up becomes the axle.
     pub fn adopt(&mut self, view: &CameraView) {
         let offset = view.eye - view.target;
         self.target = view.target;
         self.distance = offset.length();
         self.fov_y_degrees = view.fov_y_degrees;
         (self.near, self.far) = (view.near, view.far);
-        self.face(offset / self.distance, view.up);
-        let right = (-offset).cross(view.up).normalize_or_zero();
-        if self.right().distance(right) > 1e-6 {
-            self.axle = view.up.normalize();
-            self.face(offset / self.distance, view.up);
+        self.roll = 0.0;
+        let offset = offset / self.distance;
+        let up = view.up.normalize();
+        self.face(offset, up);
+        let right = up.cross(offset).normalize_or_zero();
+        if self.right().distance(right) <= 1e-6 {
+            return;
+        }
+        if up.dot(offset).abs() > 1e-9 || up.abs().max_element() == 1.0 {
+            self.axle = up;
+            self.face(offset, up);
+        } else {
+            self.roll = up.dot(self.right()).atan2(up.dot(self.up()));
         }
     }
 
@@ -125,7 +139,8 @@ impl OrbitCamera {
     /// The camera as a view holds it.
     pub fn to_view(self) -> CameraView {
         // At the poles the axle lies in the viewing direction and says nothing about up.
-        let up = if self.pitch.cos() > 1e-6 { self.axle } else { self.up() };
+        let level = self.roll == 0.0 && self.pitch.cos() > 1e-6;
+        let up = if level { self.axle } else { self.up() };
         CameraView {
             eye: self.eye(),
             target: self.target,
@@ -188,8 +203,39 @@ impl OrbitCamera {
         self.target += direction * self.scene_radius;
     }
 
+    /// Walks `steps` (right, up, forward) in shares of the scene's radius: up is along the axle, and the
+    /// others keep the height above the turntable, whatever the camera looks at.
+    pub fn walk(&mut self, steps: DVec3) {
+        let [right, up, forward] = steps.to_array();
+        let direction = right * self.axle.cross(self.level()) + up * self.axle - forward * self.level();
+        self.target += direction * self.scene_radius;
+    }
+
+    /// How far the camera is rolled, in radians: by so much up leans to the right.
+    pub fn roll(&self) -> f64 {
+        self.roll
+    }
+
+    /// Rolls the camera around the view to `angle`, in radians.
+    pub fn set_roll(&mut self, angle: f64) {
+        let angle = (angle + PI).rem_euclid(2.0 * PI) - PI;
+        // Level is level: not almost.
+        self.roll = if angle.abs() < 1e-9 { 0.0 } else { angle };
+    }
+
+    /// Rolls the camera as a drag from `from` to `to` does, so that the scene follows the cursor around
+    /// the picture's centre.
+    pub fn roll_with(&mut self, from: DVec2, to: DVec2, screen: Screen) {
+        let centre = 0.5 * DVec2::new(screen.width, screen.height);
+        let (from, to) = (from - centre, to - centre);
+        if from.length() > 1.0 && to.length() > 1.0 {
+            self.set_roll(self.roll - from.angle_to(to));
+        }
+    }
+
     /// Looks at the target from `side`.
     pub fn look_from(&mut self, side: Side) {
+        self.roll = 0.0;
         let up = if side.direction().dot(self.axle).abs() > 0.5 {
             // Seen from above, what was in front is at the bottom.
             -self.basis().0 * side.direction().dot(self.axle).signum()
@@ -207,6 +253,7 @@ impl OrbitCamera {
     /// Puts the turntable on another axle, and looks from the front right again.
     pub fn set_axle(&mut self, axle: DVec3) {
         self.axle = axle.try_normalize().unwrap_or(DVec3::Y);
+        self.roll = 0.0;
         let [right, up, front] = OVERVIEW;
         self.yaw = right.atan2(front);
         self.pitch = up.atan2(right.hypot(front));
@@ -239,7 +286,9 @@ impl OrbitCamera {
         }
     }
 
+    /// Turns by angles to the right and downwards in the picture.
     fn turn(&mut self, angles: DVec2) {
+        let angles = DVec2::from_angle(self.roll).rotate(angles);
         self.yaw = (self.yaw - angles.x).rem_euclid(2.0 * PI);
         self.pitch = (self.pitch + angles.y).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
@@ -269,11 +318,18 @@ impl OrbitCamera {
     }
 
     fn up(&self) -> DVec3 {
-        self.pitch.cos() * self.axle - self.pitch.sin() * self.level()
+        let (right, up) = self.unrolled();
+        self.roll.cos() * up + self.roll.sin() * right
     }
 
     fn right(&self) -> DVec3 {
         self.up().cross(self.offset())
+    }
+
+    /// Right and up of a level camera.
+    fn unrolled(&self) -> (DVec3, DVec3) {
+        let up = self.pitch.cos() * self.axle - self.pitch.sin() * self.level();
+        (up.cross(self.offset()), up)
     }
 
     fn level(&self) -> DVec3 {
@@ -288,118 +344,5 @@ impl OrbitCamera {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SCREEN: Screen = Screen { width: 800.0, height: 600.0 };
-
-    fn bounds() -> Option<Bounds> {
-        Some(Bounds { min: DVec3::new(-1.0, 0.0, 2.0), max: DVec3::new(3.0, 1.0, 4.0) })
-    }
-
-    fn camera() -> OrbitCamera {
-        OrbitCamera::overview(bounds(), 0.1, 4.0 / 3.0)
-    }
-
-    /// Where a point of the world appears on the screen.
-    fn project(camera: &OrbitCamera, point: DVec3) -> DVec2 {
-        camera.projection(SCREEN).project(point).unwrap().at
-    }
-
-    /// The point of the plane through the target that is seen at `cursor`.
-    fn under(camera: &OrbitCamera, cursor: DVec2) -> DVec3 {
-        camera.target + camera.lateral(cursor, SCREEN) * camera.distance
-    }
-
-    #[test]
-    fn the_overview_is_that_of_a_view_without_camera() {
-        let view = renderer::Camera::overview(bounds(), 0.1, 0.7);
-        let ours = OrbitCamera::overview(bounds(), 0.1, 0.7).to_view();
-        assert!(ours.eye.distance(view.eye) < 1e-12 && ours.target == view.target && ours.up == view.up);
-        assert_eq!(ours.fov_y_degrees, view.fov_y_degrees);
-    }
-
-    #[test]
-    fn orbit_keeps_the_target_and_the_distance() {
-        let mut camera = camera();
-        let (target, distance) = (camera.target, camera.distance);
-        camera.orbit(DVec2::new(123.0, -77.0), SCREEN);
-        assert_eq!(camera.target, target);
-        assert!((camera.eye().distance(target) - distance).abs() < 1e-12);
-        camera.orbit(DVec2::new(0.0, 1e6), SCREEN);
-        assert!(camera.to_view().up.is_finite() && camera.up().dot(camera.offset()).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_drag_to_the_right_carries_the_front_to_the_right() {
-        let mut camera = camera();
-        let front = camera.target + 0.1 * camera.offset();
-        camera.orbit(DVec2::new(20.0, 0.0), SCREEN);
-        assert!(project(&camera, front).x > 400.0);
-        let above = camera.target + 0.1 * camera.offset();
-        camera.orbit(DVec2::new(0.0, 20.0), SCREEN);
-        assert!(project(&camera, above).y > 300.0);
-    }
-
-    #[test]
-    fn what_is_panned_stays_under_the_cursor() {
-        let mut camera = camera();
-        let cursor = DVec2::new(250.0, 420.0);
-        let point = under(&camera, cursor);
-        camera.pan(DVec2::new(90.0, -40.0), SCREEN);
-        assert!(project(&camera, point).distance(cursor + DVec2::new(90.0, -40.0)) < 1e-9);
-    }
-
-    #[test]
-    fn what_is_zoomed_to_stays_under_the_cursor() {
-        let mut camera = camera();
-        let cursor = DVec2::new(700.0, 100.0);
-        let point = under(&camera, cursor);
-        camera.zoom(0.25, Some(cursor), SCREEN);
-        assert!(project(&camera, point).distance(cursor) < 1e-9);
-        for _ in 0..200 {
-            camera.zoom(0.5, Some(cursor), SCREEN);
-        }
-        assert!(camera.distance > 0.0 && camera.eye().is_finite());
-    }
-
-    #[test]
-    fn looking_around_keeps_the_eye() {
-        let mut camera = camera();
-        let eye = camera.eye();
-        camera.look(DVec2::new(-31.0, 12.0), SCREEN);
-        assert!(camera.eye().distance(eye) < 1e-12);
-        let ahead = -camera.offset();
-        camera.fly(DVec3::new(0.0, 0.0, 0.5));
-        assert!((camera.eye() - eye).normalize().distance(ahead) < 1e-9);
-    }
-
-    #[test]
-    fn axis_views_look_along_their_axis_and_survive_a_saved_view() {
-        for axle in [DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
-            for side in Side::ALL {
-                let mut camera = camera();
-                camera.set_axle(axle);
-                camera.look_from(side);
-                assert!(camera.offset().distance(side.direction()) < 1e-9, "{axle} {side:?}");
-                let mut again = OrbitCamera { yaw: 0.3, ..camera };
-                again.adopt(&camera.to_view());
-                assert_eq!(again.axle, camera.axle, "{axle} {side:?}");
-                for (ours, theirs) in again.axes().into_iter().zip(camera.axes()) {
-                    assert!(ours.distance(theirs) < 1e-6, "{axle} {side:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_foreign_up_becomes_the_axle() {
-        let mut camera = camera();
-        let mut view = camera.to_view();
-        view.up = DVec3::new(1.0, 0.2, 0.0);
-        camera.adopt(&view);
-        assert!(camera.axle.distance(view.up.normalize()) < 1e-12);
-        let back = camera.to_view();
-        assert!(back.eye.distance(view.eye) < 1e-9);
-    }
-}
+#[path = "orbit_camera_tests.rs"]
+mod tests;

@@ -20,9 +20,27 @@ pub struct PictureView {
     pub layers: Layers,
     pub handles: Handles,
     texture: Option<TextureHandle>,
-    pub flying: bool,
+    pub motion: Motion,
     /// Speed of flying, in shares of the scene's radius a second.
     speed: f64,
+}
+
+/// What the mouse and the keys do to the camera.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Motion {
+    #[default]
+    Orbit,
+    /// Where the camera looks.
+    Fly,
+    /// At one height.
+    Walk,
+}
+
+impl Motion {
+    /// Turns `motion` on, or off where it is on.
+    pub fn toggle(&mut self, motion: Motion) {
+        *self = if *self == motion { Motion::Orbit } else { motion };
+    }
 }
 
 /// Factor of a zoom for each point of the wheel: one notch is about a tenth.
@@ -35,7 +53,7 @@ impl PictureView {
             layers: Layers::default(),
             handles: Handles::default(),
             texture: None,
-            flying: false,
+            motion: Motion::Orbit,
             speed: 0.5,
         }
     }
@@ -107,9 +125,14 @@ impl PictureView {
         let other =
             response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
         match () {
+            () if left && modifiers.shift && modifiers.command => {
+                if let Some(to) = response.interact_pointer_pos().map(cursor) {
+                    camera.roll_with(to - delta, to, screen);
+                }
+            }
             () if other || (left && modifiers.shift) => camera.pan(delta, screen),
             () if left && modifiers.command => camera.zoom((delta.y * 0.01).exp(), None, screen),
-            () if left && self.flying => camera.look(delta, screen),
+            () if left && self.motion != Motion::Orbit => camera.look(delta, screen),
             () if left => camera.orbit(delta, screen),
             () => {}
         }
@@ -125,17 +148,17 @@ impl PictureView {
         if let Some(position) = response.hover_pos() {
             let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
             let factor = (-f64::from(wheel) * WHEEL).exp() / f64::from(pinch.max(1e-3));
-            if factor != 1.0 && self.flying {
+            if factor != 1.0 && self.motion != Motion::Orbit {
                 self.speed = (self.speed / factor).clamp(FLY_SPEEDS[0], FLY_SPEEDS[1]);
             } else if factor != 1.0 {
                 camera.zoom(factor, Some(cursor(position)), screen);
             }
         }
-        if self.flying && !ui.ctx().egui_wants_keyboard_input() {
+        if self.motion != Motion::Orbit && !ui.ctx().egui_wants_keyboard_input() {
             self.fly(ui, camera);
         }
         if *camera != before {
-            session.touch(std::time::Instant::now());
+            session.steered(std::time::Instant::now());
         }
     }
 
@@ -151,7 +174,11 @@ impl PictureView {
             (steps, f64::from(input.stable_dt.min(0.1)))
         });
         if steps != DVec3::ZERO {
-            camera.fly(steps * self.speed * seconds);
+            let steps = steps * self.speed * seconds;
+            match self.motion {
+                Motion::Walk => camera.walk(steps),
+                Motion::Fly | Motion::Orbit => camera.fly(steps),
+            }
             ui.ctx().request_repaint();
         }
     }
@@ -162,7 +189,7 @@ impl PictureView {
         if let Some(camera) = &mut session.camera {
             camera.zoom(if closer { 0.8 } else { 1.25 }, None, Screen { width, height });
         }
-        session.touch(std::time::Instant::now());
+        session.steered(std::time::Instant::now());
     }
 
     /// Speed of flying, in scene radii a second.

@@ -22,6 +22,8 @@ pub struct Facts {
     pub reference_length: f64,
     /// Which values are u = 0 and u = 1, and where they are on the device's axis.
     pub placement: Placement,
+    /// Where a fixed near or far cuts off particles in the picture: the depth that they begin, or end, at.
+    pub cut: [Option<f64>; 2],
 }
 
 /// Particles and quantity of the last scene. A frame is recognised by its address, which its `Arc`
@@ -50,7 +52,7 @@ impl Preparation {
         let mut rejected = particles.rejected();
         rejected.non_finite += quantity.rejected();
         let whole = particles.whole();
-        let facts = Facts {
+        let mut facts = Facts {
             particles: particles.len(),
             whole: whole.particles,
             rejected,
@@ -58,8 +60,11 @@ impl Preparation {
             support_radii: whole.support_radii,
             reference_length: renderer::default_reference_length(&particles),
             placement: *quantity.placement(),
+            cut: [None; 2],
         };
-        Ok((Scene::new(particles, quantity, view)?, facts))
+        let scene = Scene::new(particles, quantity, view)?;
+        facts.cut = cut(&scene, view);
+        Ok((scene, facts))
     }
 
     fn particles(&mut self, frame: &Arc<Frame>, view: &View) -> anyhow::Result<Arc<ParticleSet>> {
@@ -113,4 +118,21 @@ impl Preparation {
         self.quantity = Some((view.quantity.clone(), Arc::clone(&quantity)));
         Ok(quantity)
     }
+}
+
+/// Where a near or far that `view` fixes cuts off particles that would be in the picture of `scene`.
+fn cut(scene: &Scene, view: &View) -> [Option<f64>; 2] {
+    // What is closer than this is never in a picture: it would cost slices for nothing.
+    const CLOSEST: f64 = 1e-4;
+    let Some(camera) = view.camera.filter(|camera| camera.near.is_some() || camera.far.is_some()) else {
+        return [None; 2];
+    };
+    let aspect = f64::from(scene.width) / f64::from(scene.height);
+    let Some([nearest, farthest]) = scene.particles.depths_in_picture(&scene.camera, aspect) else {
+        return [None; 2];
+    };
+    let nearest = nearest.max(CLOSEST * farthest);
+    let near = camera.near.filter(|near| *near > nearest * (1.0 + 1e-6)).map(|_| nearest);
+    let far = camera.far.filter(|far| *far < farthest * (1.0 - 1e-6)).map(|_| farthest);
+    [near, far]
 }

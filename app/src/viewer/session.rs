@@ -1,5 +1,6 @@
 //! The state of the program: run, playhead, view, messages. Knows no window and no egui.
 
+mod cameras;
 mod costs;
 mod history;
 mod live;
@@ -27,6 +28,7 @@ use super::playback::{Arrival, Playback};
 use super::render_thread::Job;
 use super::run::Run;
 use super::statistics;
+use cameras::Cameras;
 pub use costs::{Costs, Entry, Stage};
 use history::History;
 pub use looking::{Looking, Tool};
@@ -81,6 +83,8 @@ pub struct Session {
     /// Box around the particles of all frames pictured so far, and their largest support radius.
     extent: (Option<Bounds>, f64),
     moving_until: Option<Instant>,
+    /// How the camera moves by itself.
+    cameras: Cameras,
     asked: Option<Job>,
     /// Room for the picture in the window, in physical pixels.
     room: [u32; 2],
@@ -128,6 +132,7 @@ impl Session {
             without_picture: None,
             extent: (None, 0.0),
             moving_until: None,
+            cameras: Cameras::default(),
             asked: None,
             room: [0, 0],
             history: History::default(),
@@ -151,6 +156,7 @@ impl Session {
         self.probe = None;
         self.looking.forget();
         self.history = History::default();
+        self.cameras = Cameras::default();
         self.seen.clear();
         self.told.clear();
         self.told_left_out.clear();
@@ -267,10 +273,15 @@ impl Session {
         }
     }
 
-    /// Looks for frames that have arrived, and moves the playhead while playing.
+    /// Looks for frames that have arrived, moves the playhead while playing, and the camera on its way.
     pub fn poll(&mut self, now: Instant) {
         self.messages.expire(now);
         self.take_changes();
+        self.move_playhead(now);
+        self.move_camera(now);
+    }
+
+    fn move_playhead(&mut self, now: Instant) {
         // Bad frames may follow one another, and what comes after them may be in memory already.
         for _ in 0..=self.playback.count() {
             let index = self.playback.index();
@@ -377,7 +388,7 @@ impl Session {
         let settled = self.moving_until.filter(|until| now < *until);
         let reading = self.reading().map(|_| now + GLANCE);
         let own = [self.playback.due(), self.messages.due(), self.step_due()];
-        own.into_iter().chain([settled, reading]).flatten().min()
+        own.into_iter().chain([settled, reading, self.flight_due(now)]).flatten().min()
     }
 
     pub fn log(&mut self, event: impl Into<String>) {

@@ -32,6 +32,13 @@ pub enum Action {
     ZoomIn,
     ZoomOut,
     Fly,
+    Walk,
+    CopyCamera,
+    PasteCamera,
+    Bookmark,
+    GoTo(u8),
+    Keyframe,
+    FollowPath,
     Inspect,
     Pick,
     Measure,
@@ -57,6 +64,7 @@ pub struct Shortcut {
 }
 
 const NONE: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
@@ -105,6 +113,21 @@ pub const SHORTCUTS: &[Shortcut] = &[
     key("Camera", NONE, Key::Equals, Action::ZoomIn, ""),
     key("Camera", NONE, Key::Minus, Action::ZoomOut, "Zoom out"),
     key("Camera", NONE, Key::F, Action::Fly, "Fly mode on or off"),
+    key("Camera", NONE, Key::G, Action::Walk, "Walk mode on or off"),
+    key("Camera", CTRL_SHIFT, Key::C, Action::CopyCamera, "Copy the camera as text"),
+    key("Camera", CTRL_SHIFT, Key::V, Action::PasteCamera, "Paste a camera, or that of a view"),
+    key("Camera", NONE, Key::B, Action::Bookmark, "Bookmark the camera"),
+    key("Camera", CTRL, Key::Num1, Action::GoTo(1), "Go to bookmark 1"),
+    key("Camera", CTRL, Key::Num2, Action::GoTo(2), "Go to bookmark 2"),
+    key("Camera", CTRL, Key::Num3, Action::GoTo(3), "Go to bookmark 3"),
+    key("Camera", CTRL, Key::Num4, Action::GoTo(4), "Go to bookmark 4"),
+    key("Camera", CTRL, Key::Num5, Action::GoTo(5), "Go to bookmark 5"),
+    key("Camera", CTRL, Key::Num6, Action::GoTo(6), "Go to bookmark 6"),
+    key("Camera", CTRL, Key::Num7, Action::GoTo(7), "Go to bookmark 7"),
+    key("Camera", CTRL, Key::Num8, Action::GoTo(8), "Go to bookmark 8"),
+    key("Camera", CTRL, Key::Num9, Action::GoTo(9), "Go to bookmark 9"),
+    key("Camera", SHIFT, Key::K, Action::Keyframe, "Set or remove a keyframe here"),
+    command("Camera", Action::FollowPath, "Follow the camera path, or no longer"),
     key("Picture", NONE, Key::C, Action::CellClasses, "Classes of the cells on or off"),
     key("Picture", NONE, Key::I, Action::Inspect, "Inspect: a click looks into a pixel"),
     command("Picture", Action::MeasureError, "Measure the error against full sampling"),
@@ -122,18 +145,19 @@ pub const SHORTCUTS: &[Shortcut] = &[
 ];
 
 /// What the mouse does over the picture, and the keys that act as long as they are held.
-pub const GESTURES: [(&str, &str); 11] = [
+pub const GESTURES: [(&str, &str); 12] = [
     ("Left drag", "Orbit"),
     ("Right drag, Shift + drag", "Pan"),
     ("Wheel, pinch", "Zoom to the cursor"),
     ("Ctrl + left drag", "Zoom to the centre"),
+    ("Ctrl + Shift + left drag", "Roll"),
     ("Double click", "Turn around this point"),
     ("Click", "With Inspect: look into this pixel"),
     ("Click", "With Pick, Measure: the particle seen here"),
     ("Escape", "Close what a tool opened; put it away"),
-    ("W A S D, Q E", "In fly mode: move, sink and rise"),
-    ("Left drag, wheel", "In fly mode: look around, speed"),
-    ("Shift", "In fly mode: faster"),
+    ("W A S D, Q E", "When flying or walking: move, sink, rise"),
+    ("Left drag, wheel", "Flying or walking: look around, speed"),
+    ("Shift", "Flying or walking: faster"),
 ];
 
 /// Takes the actions out of the keyboard input.

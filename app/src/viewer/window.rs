@@ -187,6 +187,8 @@ impl Open {
         for order in std::mem::take(&mut self.desk.orders) {
             match order {
                 Order::Quit => events.exit(),
+                Order::PasteCamera => self.desk.paste_camera(self.glass.input.clipboard_text()),
+                Order::Copy(text) => self.glass.input.set_clipboard_text(text),
                 Order::FullScreen => {
                     let full = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
                     self.window.set_fullscreen(full);

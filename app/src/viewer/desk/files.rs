@@ -69,7 +69,7 @@ impl Desk {
     }
 
     pub(super) fn save_view(&self, path: PathBuf) {
-        let view = self.session.complete_view();
+        let view = self.session.saved_view();
         self.work(move || {
             let saved = image_file::write_whole(&path, view.to_json().as_bytes());
             Done::ViewSaved(path, saved)

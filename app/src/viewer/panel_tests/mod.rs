@@ -1,6 +1,9 @@
 //! What a click in each panel changes in the session, and how the panels look.
 
 mod annotations;
+mod bookmarks;
+mod camera;
+mod camera_path;
 mod cells;
 mod export;
 mod handles;

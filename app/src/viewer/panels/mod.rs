@@ -1,8 +1,10 @@
 //! One panel a file. Panels edit the session's view; what needs the window they ask for by an action.
 
 pub mod annotations;
+pub mod bookmarks;
 pub mod budget;
 pub mod camera;
+pub mod camera_path;
 pub mod cell_classes;
 pub mod cells;
 mod colour_menu;

@@ -178,9 +178,23 @@ fn paint(ui: &Ui, session: &Session, track: &Track) {
         first += same;
     }
     ticks(ui, track);
+    keyframes(ui, session, track);
     let cell = track.cell(session.playback.index());
     let head = Rect::from_center_size(cell.center(), vec2(cell.width().clamp(4.0, 10.0), 18.0));
     painter.rect_filled(head, 3, Color32::WHITE);
+}
+
+/// Marks of the camera's keyframes; bright while the camera follows them.
+fn keyframes(ui: &Ui, session: &Session, track: &Track) {
+    let colour = if session.follows_path() { theme::WARNING } else { theme::MUTED };
+    let shown = session.view.path.keyframes.iter().filter(|key| key.frame < track.count as f64);
+    for key in shown {
+        let cell = track.cell(key.frame as usize);
+        let x = cell.center().x + key.frame.fract() as f32 * cell.width();
+        let centre = pos2(x, track.rect.top() - 3.5);
+        let points = [vec2(0.0, -3.5), vec2(3.5, 0.0), vec2(0.0, 3.5), vec2(-3.5, 0.0)].map(|p| centre + p);
+        ui.painter().add(egui::Shape::convex_polygon(points.to_vec(), colour, Stroke::NONE));
+    }
 }
 
 /// Marks between frames, where they are far enough apart to be told from one another.

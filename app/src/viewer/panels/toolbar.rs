@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Acti
         steps(ui, session, actions);
         gap(ui);
         let ready = session.camera.is_some();
-        ui.add_enabled_ui(ready, |ui| camera(ui, modes, actions));
+        ui.add_enabled_ui(ready, |ui| camera(ui, session, modes, actions));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             call(ui, ui_button("Help", false), Action::Help, actions);
             call(ui, ui_button("Settings", false), Action::Settings, actions);
@@ -67,7 +67,7 @@ fn steps(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
     }
 }
 
-fn camera(ui: &mut Ui, modes: Modes, actions: &mut Vec<Action>) {
+fn camera(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Action>) {
     call(ui, ui_button("Reset", false), Action::Reset, actions);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
@@ -77,6 +77,15 @@ fn camera(ui: &mut Ui, modes: Modes, actions: &mut Vec<Action>) {
         }
     });
     call(ui, ui_button("Fly", modes.flying), Action::Fly, actions);
+    ui.menu_button("Bookmarks", |ui| {
+        item(ui, "Bookmark the camera", Action::Bookmark, actions);
+        if !session.view.bookmarks.is_empty() {
+            ui.separator();
+        }
+        for (number, bookmark) in (1..=u8::MAX).zip(&session.view.bookmarks) {
+            item(ui, &bookmark.name, Action::GoTo(number), actions);
+        }
+    });
     gap(ui);
     let tools = [
         ("Inspect", "inspect", Tool::Inspect, Action::Inspect),

@@ -123,6 +123,13 @@ impl Session {
         }
     }
 
+    /// Says that the camera went along its path: that is no step of the user's.
+    pub(super) fn moved_by_itself(&mut self) {
+        if let Some(present) = &mut self.history.present {
+            present.camera = self.camera;
+        }
+    }
+
     /// When what has changed last is a step, if nothing else happens.
     pub(super) fn step_due(&self) -> Option<Instant> {
         let history = &self.history;

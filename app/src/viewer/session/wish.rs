@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use renderer::{AnnotationsView, View};
+use renderer::{AnnotationsView, PathView, View};
 
 use super::Session;
 use crate::viewer::render_thread::{Job, Looks};
@@ -52,6 +52,8 @@ impl Session {
     pub fn drawn_view(&self) -> View {
         let mut view = self.complete_view();
         view.annotations = None;
+        view.bookmarks.clear();
+        view.path = PathView::default();
         [view.image.width, view.image.height] = self.fitted();
         view
     }
@@ -90,8 +92,13 @@ impl Session {
         self.view.annotations = Some(look);
     }
 
-    /// The view with everything that the session decides: what is saved, and what a saved picture
-    /// is made from.
+    /// The view as it is saved to a file: a turntable starts from where it stands at the first frame.
+    pub fn saved_view(&self) -> View {
+        View { camera: self.first_camera().or(self.view.camera), ..self.complete_view() }
+    }
+
+    /// The view with everything that the session decides, of the frame in view: what a saved picture is
+    /// made from.
     pub fn complete_view(&self) -> View {
         let mut view = self.view.clone();
         if let Some(camera) = self.camera {
