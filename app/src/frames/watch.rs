@@ -45,6 +45,9 @@ type Stamp = (u64, Option<SystemTime>);
 
 /// A file that was changed within this time before the first look may be half written.
 const YOUNG: Duration = Duration::from_secs(10);
+/// A file that was changed within this time is not done, although it was the same at two looks: solvers
+/// pause between two arrays.
+const FRESH: Duration = Duration::from_secs(5);
 
 impl Watcher {
     /// For the run that `arguments` named when it was opened, with the frames of `known`.
@@ -72,7 +75,7 @@ impl Watcher {
         changes
     }
 
-    /// Finds files that are new. One becomes a frame once it is the same at two looks.
+    /// Finds files that are new. One becomes a frame once it is the same at two looks, and not fresh.
     fn find(&mut self, changes: &mut Changes) {
         // What cannot be listed now may be there at the next look.
         let Ok(found) = Sequence::open(&self.arguments) else { return };
@@ -115,6 +118,7 @@ impl File {
             Some(_) if stamp != before => self.unsettled = true,
             // Some make a file first and write it later.
             Some((0, _)) if !self.shown => {}
+            Some((_, Some(time))) if now.duration_since(time).is_ok_and(|age| age < FRESH) => {}
             Some(_) if self.unsettled => {
                 self.unsettled = false;
                 if self.shown {
@@ -214,8 +218,10 @@ mod tests {
         let folder = Folder::with(&["a_1.csv"]);
         let mut watcher = folder.watcher();
         assert!(watcher.look(SystemTime::now()).unsettled.contains(&folder.path("a_1.csv")));
-        assert_eq!(watcher.look(SystemTime::now()).changed, [folder.path("a_1.csv")]);
-        assert_eq!(watcher.look(SystemTime::now()), Changes::default());
+        let soon = |seconds| SystemTime::now() + Duration::from_secs(seconds);
+        assert!(watcher.look(soon(2)).changed.is_empty(), "the solver may only pause");
+        assert_eq!(watcher.look(soon(8)).changed, [folder.path("a_1.csv")]);
+        assert_eq!(watcher.look(soon(9)), Changes::default());
     }
 
     #[test]
