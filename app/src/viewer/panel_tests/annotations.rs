@@ -54,7 +54,7 @@ fn the_picture_is_not_drawn_anew() {
     let session = fluid();
     let before = session.drawn_view();
     let mut harness = panel(session, annotations::show);
-    click(&mut harness, "Frame number");
+    click(&mut harness, "Frame");
     assert_eq!(harness.state().drawn_view(), before);
 }
 

@@ -68,7 +68,7 @@ fn items(ui: &mut Ui, look: &mut AnnotationsView) {
     pair(
         "",
         (&mut look.time, "Time", "The frame's time, where its file tells one"),
-        (&mut look.frame_number, "Frame number", "Counted from 0"),
+        (&mut look.frame_number, "Frame", "The frame's number, counted from 0"),
     );
     widgets::row(ui, "", |ui| {
         let hint =

@@ -77,7 +77,10 @@ fn point(ui: &mut Ui, label: &str, point: &mut DVec3, scale: f64, hint: &str) ->
         let mut changed = false;
         for (axis, value) in ["x", "y", "z"].into_iter().zip(point.as_mut()) {
             // Taken when it is complete: half a number may be no camera.
-            let field = widgets::number(value, scale).update_while_editing(false);
+            // A thousandth of the scale is all that there is room for.
+            let unit = 10_f64.powf(scale.log10().floor() - 3.0);
+            let shown = move |value: f64, _| widgets::short((value / unit).round() * unit);
+            let field = widgets::number(value, scale).custom_formatter(shown).update_while_editing(false);
             let name = format!("{label} {axis}");
             changed |=
                 ui.add(field).accessible_name(&name).on_hover_text(format!("{name}. {hint}")).changed();
