@@ -11,6 +11,8 @@ mod dialogs;
 mod files;
 #[path = "window/harness.rs"]
 mod harness;
+#[path = "window/journeys.rs"]
+mod journeys;
 #[path = "window/sampling.rs"]
 mod sampling;
 #[path = "window/sessions.rs"]

@@ -9,6 +9,7 @@ use crate::export::video::{MISSING, USUAL_RATE, VideoFormat};
 use crate::image_file::Format;
 use crate::viewer::exports::{Exports, Plan};
 use crate::viewer::session::Session;
+use crate::viewer::widgets::Areas;
 use crate::viewer::{theme, widgets};
 
 use super::export_queue;
@@ -289,6 +290,7 @@ impl ExportForm {
         let label = if exports.pending() > 0 { "Add to the queue" } else { "Export" };
         ui.add_enabled_ui(possible, |ui| {
             let button = ui.vertical_centered_justified(|ui| ui.button(label)).inner;
+            Areas::mark(ui, "export", button.rect);
             let button = button.on_disabled_hover_text("There must be a run, a folder and a name");
             if let (true, Some(plan)) = (button.clicked(), plan) {
                 exports.add(plan);

@@ -48,7 +48,9 @@ fn add(ui: &mut Ui, session: &mut Session, scene: &Bounds) {
         let width = (ui.available_width() - 2.0 * ui.spacing().item_spacing.x) / 3.0;
         let mut button = |enabled: bool, label: &'static str, hint: &'static str| {
             let button = egui::Button::new(label).min_size(egui::vec2(width, theme::ROW_HEIGHT));
-            ui.add_enabled(enabled, button).on_hover_text(hint).clicked()
+            let button = ui.add_enabled(enabled, button).on_hover_text(hint);
+            widgets::Areas::mark(ui, label, button.rect);
+            button.clicked()
         };
         if button(select.clip_box.is_none(), "+ Box", "Keep what lies inside a box, or outside of it") {
             let Bounds { min, max } = *scene;

@@ -1,0 +1,94 @@
+//! What a user does on most days, from one end to the other.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use sphcast::image_file::{self, Pixels};
+
+use crate::harness::{Window, binary, missing};
+use crate::system::frames;
+
+/// The pictures that the command line makes of the frames in `folder`, with the view in a file.
+fn rendered(folder: &Path, view: &Path, count: usize) -> Vec<Pixels> {
+    let out = folder.join("rendered");
+    let status = Command::new(binary())
+        .current_dir(folder)
+        .args(["render", "*.vtk", "--out", "rendered/"])
+        .arg("--view")
+        .arg(view)
+        .stderr(Stdio::null())
+        .status()
+        .unwrap();
+    assert!(status.success());
+    (0..count).map(|index| image_file::read(&out.join(format!("frame-{index:04}.png"))).unwrap()).collect()
+}
+
+fn visible(pixels: &Pixels) -> usize {
+    pixels.data.iter().filter(|pixel| pixel[3] > 0.05).count()
+}
+
+#[test]
+fn a_plane_cuts_the_run_open() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    let mut window = Window::open(folder.path(), &[".", "--size", "120x90"]);
+    window.key("5");
+    window.wait_for_full_picture();
+    let (whole, before) = window.save(folder.path());
+    assert!(before.select.is_empty());
+    // A plane is put across the line of sight: along this row of particles.
+    window.key("1");
+    window.rest();
+    // The section above it is folded away, so that all of it is in view.
+    for section in ["Transfer function", "Clip and filter"] {
+        window.click(section, [0.5, 0.5]);
+        window.rest();
+    }
+    window.wait_for_area("+ Plane");
+    window.rest();
+    window.click("+ Plane", [0.5, 0.5]);
+    window.key("5");
+    window.wait_for_full_picture();
+    let (cut, after) = window.save(folder.path());
+    assert!(after.select.clip_plane.is_some());
+    let [whole, cut] = [whole, cut].map(|path| image_file::read(&path).unwrap());
+    let share = visible(&cut) as f64 / visible(&whole) as f64;
+    assert!((0.3..0.7).contains(&share), "half is cut away: {share} is left");
+
+    // And back.
+    window.key("ctrl+z");
+    window.key("ctrl+z");
+    window.wait_for_full_picture();
+    let (_, undone) = window.save(folder.path());
+    assert!(undone.select.is_empty());
+}
+
+#[test]
+fn a_sequence_is_exported_as_the_command_line_makes_it() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    let mut window = Window::open(folder.path(), &[".", "--size", "60x45"]);
+    window.drag("picture", [0.3, 0.5], [0.6, 0.4]);
+    window.wait_for_full_picture();
+    let (picture, _) = window.save(folder.path());
+    window.key("ctrl+shift+s");
+    window.wait_for_area("export");
+    window.rest();
+    window.click("export", [0.5, 0.5]);
+    window.wait_for("exported");
+    let exported: Vec<PathBuf> =
+        (0..2).map(|index| folder.path().join(format!("frame-{index:04}.png"))).collect();
+    let rendered = rendered(folder.path(), &picture.with_extension("json"), 2);
+    for (exported, rendered) in exported.iter().zip(&rendered) {
+        assert!(visible(rendered) > 100, "it shows something");
+        assert_eq!(&image_file::read(exported).unwrap(), rendered, "{}", exported.display());
+    }
+}
