@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Whether control points at equal distances are at equal differences or at equal ratios of the quantity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
     #[default]

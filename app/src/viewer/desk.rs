@@ -6,6 +6,7 @@ mod files;
 mod keeping;
 mod looking;
 mod measuring;
+mod surveying;
 
 use std::path::PathBuf;
 use std::sync::mpsc;
@@ -36,7 +37,8 @@ use super::render_thread::{RenderThread, Report};
 use super::session::{Session, Tool};
 use super::shortcuts::Action;
 use super::statistics::Answer;
-use super::task::Outcome;
+use super::survey::Found;
+use super::task::{Outcome, Task};
 use super::widgets::Areas;
 use super::{Options, Wake};
 
@@ -86,6 +88,8 @@ pub struct Desk {
     exporting: Exporting,
     /// Of the picture in view.
     pub(super) measurement: Option<Measurement>,
+    /// Of all frames, for their range.
+    survey: Option<Task<Found>>,
     pub(super) inspector: Inspector,
     pub(super) hud: Hud,
     pub(super) help: bool,
@@ -129,6 +133,7 @@ impl Desk {
             exports: Vec::new(),
             exporting: Exporting::new(&wake),
             measurement: None,
+            survey: None,
             inspector: Inspector::default(),
             hud: Hud::default(),
             help: false,
@@ -190,6 +195,7 @@ impl Desk {
             self.render.submit(job);
         }
         self.follow_measurement();
+        self.follow_survey();
         self.follow_export(window);
         self.escape(ui.ctx());
         self.count();

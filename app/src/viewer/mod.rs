@@ -43,6 +43,7 @@ mod run;
 mod session;
 mod shortcuts;
 mod statistics;
+mod survey;
 mod task;
 mod theme;
 mod tone;

@@ -10,7 +10,7 @@ mod range;
 mod space;
 mod wish;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -33,7 +33,7 @@ pub use costs::{Costs, Entry, Stage};
 use history::History;
 pub use looking::{Looking, Tool};
 pub use picture::PictureFacts;
-pub use range::RangeSource;
+pub use range::{RangeSource, Ranges, Survey};
 
 pub struct Session {
     run: Option<Run>,
@@ -70,8 +70,7 @@ pub struct Session {
     pub wants_statistics: bool,
     /// Adapter's name, and whether it is a program on the CPU.
     pub adapter: Option<(String, bool)>,
-    /// Extremes of each quantity over the frames that were in view.
-    seen: HashMap<Option<String>, [f64; 2]>,
+    pub ranges: Ranges,
     /// Frames that were reported as bad.
     told: BTreeSet<usize>,
     /// Whether the playhead goes to each new frame of a run that is being written.
@@ -125,7 +124,7 @@ impl Session {
             statistics: None,
             wants_statistics: false,
             adapter: None,
-            seen: HashMap::new(),
+            ranges: Ranges::default(),
             told: BTreeSet::new(),
             following: false,
             told_left_out: BTreeSet::new(),
@@ -157,7 +156,7 @@ impl Session {
         self.looking.forget();
         self.history = History::default();
         self.cameras = Cameras::default();
-        self.seen.clear();
+        self.ranges.clear();
         self.told.clear();
         self.told_left_out.clear();
         self.following = false;
@@ -347,6 +346,8 @@ impl Session {
             frame: Arc::clone(frame),
             quantity: self.view.quantity.name.clone(),
             range: self.complete_view().quantity.range,
+            scale: self.view.quantity.scale,
+            quantiles: (self.range_source == RangeSource::Quantiles).then_some(self.ranges.quantiles),
             opacity: self.opacity_field(),
         };
         let known = self.analysis.as_ref().is_some_and(|answer| question.is_answered_by(answer));
@@ -354,10 +355,7 @@ impl Session {
     }
 
     pub fn answer(&mut self, analysis: Analysis) {
-        self.see(&analysis.quantity, analysis.extremes);
-        if let Some((field, extremes)) = &analysis.opacity {
-            self.see(field, *extremes);
-        }
+        self.see(&analysis);
         self.analysis = Some(analysis);
     }
 

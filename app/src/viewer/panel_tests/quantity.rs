@@ -1,10 +1,11 @@
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use renderer::OpacityView;
+use renderer::{OpacityView, Scale};
 
-use super::{count, fluid, panel};
+use super::{count, fluid, panel, session_over};
 use crate::viewer::panels::quantity;
-use crate::viewer::session::{RangeSource, Session};
+use crate::viewer::session::{RangeSource, Session, Survey};
+use crate::viewer::survey::look_through;
 
 #[test]
 fn a_field_is_chosen_from_the_menu() {
@@ -89,4 +90,63 @@ fn opacities_of_a_sequence_keep_the_range_of_all_frames_seen() {
     assert_eq!(session.complete_view().quantity.opacity.unwrap().range, Some([1000.0, 1030.0]));
     session.adopt(session.complete_view());
     assert_eq!(session.opacity_source, RangeSource::Fixed);
+}
+
+#[test]
+fn a_logarithmic_scale_begins_at_what_is_positive() {
+    let mut session = fluid();
+    session.view.quantity.name = Some("velocity.x".into());
+    count(&mut session);
+    assert_eq!(session.range(), Some([0.0, 0.75]));
+    (session.range_source, session.view.quantity.range) = (RangeSource::Fixed, Some([0.0, 0.75]));
+    let mut harness = panel(session, |ui, session| {
+        quantity::show(ui, session);
+        count(session);
+    });
+    harness.get_by_label("Logarithmic").click();
+    harness.run();
+    let session = harness.state();
+    assert_eq!((session.view.quantity.scale, session.range()), (Scale::Log, Some([0.25, 0.75])));
+    assert!(session.complete_view().validate().is_ok());
+}
+
+#[test]
+fn percentiles_of_the_frame_are_numbers_of_the_view() {
+    let mut harness = panel(fluid(), |ui, session| {
+        quantity::show(ui, session);
+        count(session);
+    });
+    harness.get_by_label("Percentile").click();
+    harness.run();
+    harness.state_mut().ranges.quantiles = [0.3, 0.7];
+    harness.run();
+    let session = harness.state();
+    let [low, high] = session.complete_view().quantity.range.unwrap();
+    let [least, most] = session.analysis.as_ref().unwrap().extremes.unwrap();
+    assert!(least < low && low < high && high < most, "{low} {high}");
+    assert!(harness.query_by_label("Left out below").is_some());
+}
+
+#[test]
+fn all_frames_are_read_when_that_is_asked_for() {
+    let mut session = session_over(&["demo:radial:8", "demo:radial:64", "demo:radial:1000"]);
+    session.range_source = RangeSource::Seen;
+    let mut harness = panel(session, quantity::show);
+    harness.get_by_label("Read all").click();
+    harness.run();
+    assert_eq!(harness.state().ranges.survey, Survey::Wanted);
+    harness.state_mut().ranges.survey = Survey::Running(0.5);
+    harness.run();
+    harness.get_by_label("Cancel").click();
+    harness.run();
+    assert_eq!(harness.state().ranges.survey, Survey::Unwanted);
+    let before = harness.state().range().unwrap();
+    let sources = harness.state().run().unwrap().sequence.frame_sources();
+    let found = look_through(&sources, &mut |_| std::ops::ControlFlow::Continue(())).unwrap();
+    harness.state_mut().ranges.survey = Survey::Idle;
+    harness.state_mut().learn(found);
+    harness.run();
+    let after = harness.state().range().unwrap();
+    assert!(after[0] <= before[0] && after[1] >= before[1] && after != before, "{before:?} {after:?}");
+    assert!(harness.query_by_label("Read all").is_none());
 }

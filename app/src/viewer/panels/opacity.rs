@@ -1,7 +1,7 @@
 //! Which field decides the opacity, where that is another one than the colour's.
 
 use egui::{RichText, Ui};
-use renderer::OpacityView;
+use renderer::{OpacityView, Scale};
 
 use crate::frames::Frame;
 use crate::scene::quantity_names;
@@ -55,7 +55,7 @@ fn choose(session: &mut Session, name: String) {
     // A range by hand is of the field before.
     session.opacity_source = match session.range_source {
         RangeSource::Seen => RangeSource::Seen,
-        RangeSource::Frame | RangeSource::Fixed => RangeSource::Frame,
+        RangeSource::Frame | RangeSource::Quantiles | RangeSource::Fixed => RangeSource::Frame,
     };
 }
 
@@ -66,6 +66,8 @@ fn range(ui: &mut Ui, session: &mut Session) {
         by_hand,
         in_effect: session.opacity_range(),
         extremes: session.opacity_extremes(),
+        scale: Scale::Linear,
+        quantiles: None,
     };
     ui.push_id("opacity", |ui| {
         range.show(ui, ["Lowest value of the opacity", "Highest value of the opacity"])

@@ -1,10 +1,11 @@
 //! Which field is shown, and which of its values are the ends of the transfer function.
 
-use egui::Ui;
+use egui::{RichText, Ui};
+use renderer::Scale;
 
 use crate::frames::Frame;
 use crate::scene::{Selection, quantity_names};
-use crate::viewer::session::{RangeSource, Session};
+use crate::viewer::session::{RangeSource, Session, Survey};
 use crate::viewer::{theme, widgets};
 
 use super::opacity;
@@ -31,14 +32,28 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         });
         menu.response.accessible_name("Field");
     });
+    scale(ui, session);
     let mut range = Range {
         source: session.range_source,
         by_hand: session.view.quantity.range,
         in_effect: session.range(),
         extremes: session.analysis.as_ref().and_then(|analysis| analysis.extremes),
+        scale: session.view.quantity.scale,
+        quantiles: Some(session.ranges.quantiles),
     };
     range.show(ui, ["Lowest value", "Highest value"]);
     (session.range_source, session.view.quantity.range) = (range.source, range.by_hand);
+    session.ranges.quantiles = range.quantiles.unwrap_or(session.ranges.quantiles);
+    if session.range_source == RangeSource::Seen {
+        survey(ui, session);
+    }
+    if let Some(not_finite) = session.analysis.as_ref().map(|analysis| analysis.not_finite)
+        && not_finite > 0
+    {
+        let text = format!("{}, left out", widgets::count(not_finite as u64));
+        let hint = "Particles whose value is no finite number are no part of the picture";
+        ui.scope(|ui| widgets::fact(ui, "Without a value", text).on_hover_text(hint));
+    }
     opacity::show(ui, session, &frame);
 }
 
@@ -51,6 +66,50 @@ fn choose(session: &mut Session, name: String) {
     }
 }
 
+fn scale(ui: &mut Ui, session: &mut Session) {
+    let mut scale = session.view.quantity.scale;
+    let log = "Equal distances along the transfer function are equal ratios: for values of many magnitudes. \
+               What is not positive counts as below the range";
+    let choices = [
+        (Scale::Linear, "Linear", "Equal distances along the transfer function are equal differences"),
+        (Scale::Log, "Logarithmic", log),
+    ];
+    widgets::row(ui, "Scale", |ui| widgets::choice(ui, &mut scale, &choices));
+    if scale != session.view.quantity.scale {
+        session.set_scale(scale);
+    }
+}
+
+/// Of how many frames the extremes are known, and a way to know them of all.
+fn survey(ui: &mut Ui, session: &mut Session) {
+    let (seen, count) = (session.frames_seen(), session.playback.count());
+    if count < 2 {
+        return;
+    }
+    widgets::row(ui, "Known from", |ui| {
+        let text = RichText::new(format!("{seen} of {count} frames")).color(theme::MUTED);
+        match session.ranges.survey {
+            Survey::Running(share) => {
+                let bar = egui::ProgressBar::new(share).desired_width(84.0).desired_height(8.0);
+                ui.add(bar.fill(theme::ACCENT));
+                if ui.button("Cancel").clicked() {
+                    session.ranges.survey = Survey::Unwanted;
+                }
+            }
+            _ if seen >= count => {
+                ui.label(text);
+            }
+            _ => {
+                ui.label(text);
+                let hint = "Reads every frame in the background; until then, frames count that were in view";
+                if ui.button("Read all").on_hover_text(hint).clicked() {
+                    session.ranges.survey = Survey::Wanted;
+                }
+            }
+        }
+    });
+}
+
 /// Which values of a field are the ends of the transfer function.
 pub struct Range {
     pub source: RangeSource,
@@ -59,20 +118,30 @@ pub struct Range {
     pub in_effect: Option<[f64; 2]>,
     /// In the frame in view.
     pub extremes: Option<[f64; 2]>,
+    pub scale: Scale,
+    /// Shares of the particles between which values are shown, where that can be chosen.
+    pub quantiles: Option<[f64; 2]>,
 }
 
 impl Range {
     /// `names`: of the numbers, for those who do not see them.
     pub fn show(&mut self, ui: &mut Ui, names: [&str; 2]) {
         let before = self.source;
-        let choices = [
+        let mut choices = vec![
             (RangeSource::Frame, "This frame", "Smallest and largest value of the frame in view"),
-            (RangeSource::Seen, "All seen", "Smallest and largest value of all frames that were in view"),
+            (RangeSource::Seen, "All frames", "Smallest and largest value of all frames that were read"),
             (RangeSource::Fixed, "Fixed", "A range by hand, the same for every frame"),
         ];
+        if self.quantiles.is_some() {
+            let hint = "Without the smallest and the largest values of the frame in view";
+            choices.insert(2, (RangeSource::Quantiles, "Percentile", hint));
+        }
         ui.horizontal(|ui| widgets::choice(ui, &mut self.source, &choices));
         if self.source != before {
             self.by_hand = self.in_effect.filter(|_| self.source == RangeSource::Fixed);
+        }
+        if let (RangeSource::Quantiles, Some(quantiles)) = (self.source, &mut self.quantiles) {
+            shares(ui, quantiles);
         }
         let Some(ends) = self.in_effect else { return };
         widgets::row(ui, "Range", |ui| self.ends(ui, ends, names));
@@ -93,12 +162,31 @@ impl Range {
         ui.add_sized([BETWEEN, size.y], egui::Label::new("to"));
         let upper = ui.add_sized(size, widgets::number(&mut high, scale)).accessible_name(names[1]);
         let changed = lower.changed() || upper.changed();
-        if changed && low.is_finite() && high.is_finite() {
+        let possible = self.scale == Scale::Linear || low.min(high) > 0.0;
+        if changed && possible && low.is_finite() && high.is_finite() {
             self.source = RangeSource::Fixed;
             // A range is ascending; whichever end was dragged past the other carries it along.
             self.by_hand = Some([low.min(high), high.max(low)]);
         }
     }
+}
+
+/// How many particles lie below and above the range, in percent.
+fn shares(ui: &mut Ui, [low, high]: &mut [f64; 2]) {
+    widgets::row(ui, "Leave out", |ui| {
+        for (label, hint, share) in [
+            ("Left out below", "Share of the particles with the smallest values", &mut *low),
+            ("Left out above", "Share of the particles with the largest values", &mut *high),
+        ] {
+            let above = label == "Left out above";
+            let mut percent = 100.0 * if above { 1.0 - *share } else { *share };
+            let field = egui::DragValue::new(&mut percent).range(0.0..=49.0).speed(0.05).suffix(" %");
+            let field = ui.add(field.max_decimals(2)).on_hover_text(hint).accessible_name(label);
+            if field.changed() {
+                *share = if above { 1.0 - 0.01 * percent } else { 0.01 * percent };
+            }
+        }
+    });
 }
 
 /// A name for the menu: a vector stands for its length.

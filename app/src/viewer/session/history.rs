@@ -22,6 +22,7 @@ struct Moment {
     view: View,
     camera: Option<OrbitCamera>,
     range_sources: [RangeSource; 2],
+    quantiles: [f64; 2],
     fits_window: bool,
 }
 
@@ -40,6 +41,7 @@ impl Moment {
             view,
             camera: session.camera,
             range_sources: [session.range_source, session.opacity_source],
+            quantiles: session.ranges.quantiles,
             fits_window: session.fits_window,
         }
     }
@@ -48,6 +50,7 @@ impl Moment {
         let camera = |moment: &Moment| moment.camera.map(OrbitCamera::to_view);
         self.view == other.view
             && self.range_sources == other.range_sources
+            && self.quantiles == other.quantiles
             && self.fits_window == other.fits_window
             && camera(self) == camera(other)
     }
@@ -60,6 +63,7 @@ impl Moment {
         }
         session.camera = self.camera.or(session.camera);
         [session.range_source, session.opacity_source] = self.range_sources;
+        session.ranges.quantiles = self.quantiles;
         session.fits_window = self.fits_window;
     }
 }

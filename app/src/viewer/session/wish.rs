@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use renderer::{AnnotationsView, PathView, View};
+use renderer::{AnnotationsView, PathView, Scale, View};
 
 use super::Session;
 use crate::viewer::render_thread::{Job, Looks};
@@ -108,9 +108,10 @@ impl Session {
             [view.image.width, view.image.height] = self.room;
         }
         let quantity = &self.view.quantity;
-        view.quantity.range = self.settled_range(self.range_source, &quantity.name, quantity.range);
+        view.quantity.range =
+            self.settled_range(self.range_source, (quantity.name.clone(), quantity.scale), quantity.range);
         if let (Some(opacity), Some(field)) = (&mut view.quantity.opacity, self.opacity_field()) {
-            opacity.range = self.settled_range(self.opacity_source, &field, opacity.range);
+            opacity.range = self.settled_range(self.opacity_source, (field, Scale::Linear), opacity.range);
         }
         view
     }
