@@ -11,6 +11,7 @@ pub mod image_file;
 mod io_error;
 mod numbers;
 mod overlay;
+mod paraview;
 pub mod places;
 pub mod projection;
 pub mod scene;

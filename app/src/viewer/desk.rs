@@ -3,6 +3,7 @@
 mod cameras;
 mod exporting;
 mod files;
+mod functions;
 mod keeping;
 mod looking;
 mod measuring;
@@ -51,6 +52,7 @@ enum Done {
     ViewRead(PathBuf, anyhow::Result<Box<View>>),
     ViewSaved(PathBuf, anyhow::Result<()>),
     Counted(Analysis),
+    Function(functions::Filed),
     Ranged(FieldRanges),
     Pointed(Box<Pointed>),
     Located(Located),
@@ -159,6 +161,7 @@ impl Desk {
         troubles.into_iter().for_each(|trouble| desk.session.complain(trouble));
         desk.open(&options.sequence, &options.files);
         desk.session.follow(options.follow);
+        desk.list_functions();
         if options.files.is_empty() {
             // Who names no run wants to see what this is, or to go on.
             desk.session.toggle_playing();
@@ -196,6 +199,7 @@ impl Desk {
         }
         self.follow_measurement();
         self.follow_survey();
+        self.follow_presets(window);
         self.follow_export(window);
         self.escape(ui.ctx());
         self.count();
@@ -322,6 +326,7 @@ impl Desk {
                 Done::ViewRead(_, Err(error)) | Done::ViewSaved(_, Err(error)) => {
                     self.session.complain(format!("{error:#}"));
                 }
+                Done::Function(filed) => self.take_function(filed),
                 Done::Counted(analysis) => {
                     self.counting = false;
                     self.session.answer(analysis);

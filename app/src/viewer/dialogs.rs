@@ -18,6 +18,8 @@ pub enum Purpose {
     SaveView,
     SavePicture,
     ExportFolder,
+    ImportColours,
+    ExportColours,
 }
 
 /// What became of a dialog.
@@ -79,6 +81,16 @@ impl Dialogs {
             }
             Purpose::LoadView => {
                 let file = dialog.set_title("Load a view").add_filter("View", &["json"]).pick_file();
+                Box::pin(async move { one(file.await) })
+            }
+            Purpose::ImportColours => {
+                let dialog = dialog.set_title("Import a colour map of ParaView");
+                let file = dialog.add_filter("Colour map", &["json"]).pick_file();
+                Box::pin(async move { one(file.await) })
+            }
+            Purpose::ExportColours => {
+                let dialog = dialog.set_title("Export as a colour map of ParaView");
+                let file = dialog.add_filter("Colour map", &["json"]).set_file_name(name).save_file();
                 Box::pin(async move { one(file.await) })
             }
             Purpose::SaveView => {

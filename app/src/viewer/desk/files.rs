@@ -17,6 +17,8 @@ impl Desk {
         match purpose {
             Purpose::OpenFiles | Purpose::OpenFolder => self.find(paths),
             Purpose::LoadView => self.load_view(first),
+            Purpose::ImportColours => self.import_colours(first),
+            Purpose::ExportColours => self.export_colours(with_ending(first, &["json"])),
             Purpose::SaveView => self.save_view(with_ending(first, &["json"])),
             Purpose::ExportFolder => self.exporting.folder_chosen(&first),
             Purpose::SavePicture => self.save_picture(with_ending(first, &["png", "exr"])),

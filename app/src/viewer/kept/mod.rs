@@ -2,6 +2,7 @@
 //! that were open, and the session to go on with.
 
 mod last_session;
+pub mod library;
 mod recent;
 mod settings;
 

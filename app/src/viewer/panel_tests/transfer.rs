@@ -1,8 +1,11 @@
 use egui::{Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use renderer::{MapView, TransferView};
 
 use super::fluid;
+use crate::viewer::kept::library::Saved;
+use crate::viewer::panels::presets::Wish;
 use crate::viewer::panels::transfer_edit as edit;
 use crate::viewer::panels::transfer_editor::TransferEditor;
 use crate::viewer::session::Session;
@@ -143,4 +146,32 @@ fn the_selected_node_has_numbers() {
     harness.get_by_label("Remove").click();
     harness.run();
     assert_eq!(harness.state().1.view.transfer.points.len(), 4);
+}
+
+#[test]
+fn presets_are_saved_chosen_and_deleted() {
+    let mut harness = editor();
+    let mine = TransferView { map: Some(MapView::named("oslo")), ..TransferView::default() };
+    harness.state_mut().0.presets.saved = vec![Saved { name: "mine".into(), transfer: mine.clone() }];
+    harness.run();
+    harness.get_by_label("Presets").click();
+    harness.run();
+    harness.get_by_label("Delete mine").click();
+    harness.run();
+    harness.get_by_label("Name of the preset").click();
+    harness.run();
+    harness.get_by_label("Name of the preset").type_text("fog");
+    harness.run();
+    harness.get_by_label("Save").click();
+    harness.run();
+    let wishes = &mut harness.state_mut().0.presets.wishes;
+    assert_eq!(std::mem::take(wishes), [Wish::Delete("mine".into()), Wish::Save("fog".into())]);
+    harness.get_by_label("mine").click();
+    harness.run();
+    assert_eq!(harness.state().1.view.transfer, mine);
+    harness.get_by_label("Presets").click();
+    harness.run();
+    harness.get_by_label("Export for ParaView…").click();
+    harness.run();
+    assert_eq!(harness.state().0.presets.wishes, [Wish::Export]);
 }

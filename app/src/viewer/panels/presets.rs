@@ -1,6 +1,12 @@
 //! Transfer functions to start from.
 
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{PopupCloseBehavior, Ui};
 use renderer::{ControlPoint, TransferView};
+
+use crate::viewer::icons::{self, Icon};
+use crate::viewer::kept::library::Saved;
+use crate::viewer::theme;
 
 /// A named transfer function.
 pub struct Preset {
@@ -67,6 +73,84 @@ pub const PRESETS: [Preset; 6] = [
         points: &[(0.0, 0x6fa8dc, 0.0), (0.5, 0x6fa8dc, 0.0), (0.5, 0x6fa8dc, 0.9), (1.0, 0xf3f6f9, 0.9)],
     },
 ];
+
+/// What is wanted of files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Wish {
+    Import,
+    Export,
+    Save(String),
+    Delete(String),
+}
+
+/// The menu of functions to start from, and of what is done with files.
+#[derive(Default)]
+pub struct Presets {
+    /// By name.
+    pub saved: Vec<Saved>,
+    /// Not yet done.
+    pub wishes: Vec<Wish>,
+    /// What the present function is to be saved as.
+    name: String,
+}
+
+impl Presets {
+    pub fn show(&mut self, ui: &mut Ui, transfer: &mut TransferView) {
+        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+        MenuButton::new("Presets").config(config).ui(ui, |ui| {
+            ui.set_min_width(190.0);
+            for preset in &PRESETS {
+                if ui.button(preset.name).on_hover_text(preset.hint).clicked() {
+                    (transfer.points, transfer.map) = (preset.points(), None);
+                    ui.close();
+                }
+            }
+            if ui.button("Default").on_hover_text("What a view without a transfer function shows").clicked() {
+                (transfer.points, transfer.map) = (default_points(), None);
+                ui.close();
+            }
+            ui.separator();
+            self.own(ui, transfer);
+            ui.separator();
+            for (label, wish) in
+                [("Import from ParaView…", Wish::Import), ("Export for ParaView…", Wish::Export)]
+            {
+                if ui.button(label).clicked() {
+                    self.wishes.push(wish);
+                    ui.close();
+                }
+            }
+        });
+    }
+
+    /// Functions saved under a name, and a field to save this one.
+    fn own(&mut self, ui: &mut Ui, transfer: &mut TransferView) {
+        for Saved { name, transfer: saved } in &self.saved {
+            ui.horizontal(|ui| {
+                if ui.button(name).clicked() {
+                    (transfer.points, transfer.map) = (saved.points.clone(), saved.map.clone());
+                    ui.close();
+                }
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    if icons::button(ui, Icon::Cross, &format!("Delete {name}"), false, true).clicked() {
+                        self.wishes.push(Wish::Delete(name.clone()));
+                    }
+                });
+            });
+        }
+        ui.horizontal(|ui| {
+            let field = egui::TextEdit::singleline(&mut self.name).hint_text("name").desired_width(118.0);
+            let field = ui.add(field).accessible_name("Name of the preset");
+            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            let named = !self.name.trim().is_empty();
+            let button = egui::Button::new("Save").min_size(egui::vec2(0.0, theme::ROW_HEIGHT));
+            let save = ui.add_enabled(named, button).on_hover_text("Keep this function under the name");
+            if named && (save.clicked() || entered) {
+                self.wishes.push(Wish::Save(std::mem::take(&mut self.name).trim().to_owned()));
+            }
+        });
+    }
+}
 
 impl Preset {
     pub fn points(&self) -> Vec<ControlPoint> {

@@ -1,13 +1,14 @@
 //! The transfer function: colour and opacity of every value, edited on a canvas and by numbers.
 
-use egui::{Key, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Key, PointerButton, PopupCloseBehavior, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
 use renderer::TransferView;
 
 use crate::annotate::ticks;
 use crate::viewer::session::Session;
 use crate::viewer::{theme, widgets};
 
-use super::presets::{PRESETS, default_points};
+use super::presets::Presets;
 use super::transfer_canvas::{self as canvas, Axes, Strip};
 use super::transfer_edit as edit;
 use super::transfer_fields::{self as fields, Node};
@@ -15,6 +16,7 @@ use super::transfer_fields::{self as fields, Node};
 /// What the editor remembers between frames.
 #[derive(Default)]
 pub struct TransferEditor {
+    pub presets: Presets,
     selected: Option<Node>,
     /// The node that the mouse holds.
     held: Option<Node>,
@@ -53,17 +55,7 @@ impl TransferEditor {
     fn header(&mut self, ui: &mut Ui, transfer: &mut TransferView) {
         ui.horizontal(|ui| {
             let before = transfer.clone();
-            ui.menu_button("Presets", |ui| {
-                for preset in &PRESETS {
-                    if ui.button(preset.name).on_hover_text(preset.hint).clicked() {
-                        (transfer.points, transfer.map) = (preset.points(), None);
-                    }
-                }
-                ui.separator();
-                if ui.button("Default").clicked() {
-                    (transfer.points, transfer.map) = (default_points(), None);
-                }
-            });
+            self.presets.show(ui, transfer);
             let hint = "Mirror the function: what was shown of low values is shown of high ones";
             if ui.button("Mirror").on_hover_text(hint).clicked() {
                 edit::reverse_colours(transfer);
@@ -73,7 +65,8 @@ impl TransferEditor {
                 self.selected = None;
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ui.menu_button("Axes", |ui| {
+                let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+                MenuButton::new("Axes").config(config).ui(ui, |ui| {
                     ui.checkbox(&mut self.log, "Logarithmic opacity").on_hover_text("Fine control near zero");
                     let mut log_counts = !self.plain_counts;
                     let hint = "Rare values are seen as well as common ones";
