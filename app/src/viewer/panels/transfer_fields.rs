@@ -102,6 +102,8 @@ pub fn outside(ui: &mut Ui, session: &mut Session) {
         [("Below range", &mut quantity.below, ends[0]), ("Above range", &mut quantity.above, ends[1])]
     {
         widgets::row(ui, label, |ui| {
+            // Three things side by side.
+            ui.spacing_mut().interact_size.x = 68.0;
             let mut on = side.is_some();
             let hint = "Show values outside the range in a colour of their own; otherwise they look as those \
                         at its end";
