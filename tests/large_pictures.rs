@@ -3,7 +3,6 @@
 #[path = "support/files.rs"]
 mod files;
 #[path = "support/program.rs"]
-#[expect(dead_code, reason = "no test calls all of it")]
 mod program;
 
 use program::{files_in, folder, sphcast};
