@@ -1,6 +1,6 @@
 //! The card of the particle that was picked: where it is, all its values, and whether it is followed.
 
-use egui::{Align, Layout, Rect, RichText, ScrollArea, Ui, vec2};
+use egui::{Align, Layout, Pos2, Rect, RichText, ScrollArea, Ui, pos2};
 
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::picked::{Mark, Picked};
@@ -9,6 +9,9 @@ use crate::viewer::theme;
 use crate::viewer::widgets::{self, Areas};
 
 const WIDTH: f32 = 268.0;
+/// From the edges of the picture, and from its right edge.
+const MARGIN: f32 = 16.0;
+const BESIDE_BAR: f32 = 140.0;
 /// Of the list of values.
 const HEIGHT: f32 = 260.0;
 
@@ -19,7 +22,7 @@ pub fn show(ui: &Ui, session: &mut Session, picture: Rect) {
     }
     egui::Window::new("Picked particle")
         .id(egui::Id::unique("picked"))
-        .default_pos(picture.min + vec2(16.0, 16.0))
+        .default_pos(corner(session, picture))
         .constrain_to(ui.ctx().content_rect())
         .title_bar(false)
         .resizable(false)
@@ -29,6 +32,18 @@ pub fn show(ui: &Ui, session: &mut Session, picture: Rect) {
             card(ui, session);
             Areas::mark(ui, "picked", ui.min_rect());
         });
+}
+
+/// Where the card opens: on the side of the picture where the particle is not.
+fn corner(session: &Session, picture: Rect) -> Pos2 {
+    let size = [picture.width(), picture.height()].map(f64::from);
+    let picked = session.looking.picked.as_ref();
+    let place = picked.and_then(|picked| session.projection(size)?.project(picked.position()));
+    let left = picture.left() + MARGIN;
+    // Beside the colour bar, which stands at the right edge.
+    let right = (picture.right() - WIDTH - BESIDE_BAR).max(left);
+    let on_the_left = place.is_some_and(|place| place.at.x < 0.5 * size[0]);
+    pos2(if on_the_left { right } else { left }, picture.top() + MARGIN)
 }
 
 /// What is on the card.
