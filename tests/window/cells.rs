@@ -11,11 +11,7 @@ fn an_overlay_is_laid_over_the_picture_and_a_pixel_looked_into() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = Window::open(folder.path(), &["demo", "--size", "120x90"]);
     window.wait_for_full_picture();
-    // From below: what is folded away moves all that is under it.
-    for section in ["Sampling", "Transfer function", "Quantity"] {
-        window.click(section, [0.5, 0.5]);
-    }
-    window.rest();
+    window.fold(&["Quantity", "Transfer function", "Sampling"]);
     // In the middle of the picture, well away from its legend.
     let middle = [200, 250, 80, 80];
     let plain = window.desktop().resting_pixels(middle);

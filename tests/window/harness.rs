@@ -185,6 +185,15 @@ impl Window {
         self.tool(&["click", "1"]);
     }
 
+    /// Opens or folds away sections of the side panel, from above: each moves all that is under it.
+    pub fn fold(&mut self, sections: &[&str]) {
+        self.rest();
+        for section in sections {
+            self.click(section, [0.5, 0.5]);
+            self.rest();
+        }
+    }
+
     pub fn drag(&self, name: &str, from: [f64; 2], to: [f64; 2]) {
         self.point(&self.place(name, from[0], from[1]));
         self.tool(&["mousedown", "1"]);

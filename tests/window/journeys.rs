@@ -42,12 +42,8 @@ fn a_plane_cuts_the_run_open() {
     assert!(before.select.is_empty());
     // A plane is put across the line of sight: along this row of particles.
     window.key("1");
-    window.rest();
     // The section above it is folded away, so that all of it is in view.
-    for section in ["Transfer function", "Clip and filter"] {
-        window.click(section, [0.5, 0.5]);
-        window.rest();
-    }
+    window.fold(&["Transfer function", "Clip and filter"]);
     window.wait_for_area("+ Plane");
     window.rest();
     window.click("+ Plane", [0.5, 0.5]);

@@ -12,10 +12,7 @@ fn a_tolerance_is_set_and_its_error_measured() {
     let mut window = Window::open(folder.path(), &["demo", "--size", "120x90"]);
     window.wait_for_full_picture();
     // The sections above it are folded away, so that all of it is in view.
-    for section in ["Transfer function", "Quantity"] {
-        window.click(section, [0.5, 0.5]);
-    }
-    window.rest();
+    window.fold(&["Quantity", "Transfer function"]);
 
     // On a software adapter it does not pay to adapt this view.
     window.click("adapt", [0.1, 0.5]);
