@@ -72,7 +72,7 @@ impl Brush {
         textures: &mut TexturesDelta,
     ) {
         let Brush { painter, lost } = self;
-        let ground = theme::GROUND.to_normalized_gamma_f32();
+        let ground = theme::colours().ground.to_normalized_gamma_f32();
         let (root, no_capture) = (ViewportId::ROOT, Vec::new());
         let painted = catch_unwind(AssertUnwindSafe(|| {
             painter.paint_and_update_textures(root, scale, ground, primitives, textures, no_capture, window)

@@ -180,6 +180,7 @@ impl Desk {
         let before = self.session.view.clone();
         self.keeping.settings.keymap().install(ui.ctx());
         self.keeping.follow_scale(ui.ctx());
+        super::theme::choose(ui.ctx(), self.keeping.settings.appearance);
         // These take keys for themselves.
         let takes_keys = self.palette.is_some() || self.preferences.is_some();
         let mut actions = if takes_keys { Vec::new() } else { super::shortcuts::pressed(ui.ctx()) };

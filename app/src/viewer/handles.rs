@@ -86,7 +86,7 @@ impl Handles {
         for part in clip_box::Part::all() {
             let (name, colour) = match part {
                 clip_box::Part::Side(axis, end) => (SIDES[axis][usize::from(end)], AXES[axis]),
-                clip_box::Part::Middle => (MIDDLE, theme::TEXT),
+                clip_box::Part::Middle => (MIDDLE, theme::DARK.text),
             };
             let Some(at) = over.projection.project(part.place(clip)) else { continue };
             if let Some(from) = self.dot(ui, over, at.at, name, colour) {
@@ -113,10 +113,10 @@ impl Handles {
         let Some(ends) = over.projection.segment(arrow.foot, arrow.tip()) else { return };
         over.line(&painter, ends, 1.0);
         let [foot, tip] = ends;
-        if let Some(from) = self.dot(ui, over, foot, FOOT, theme::TEXT) {
+        if let Some(from) = self.dot(ui, over, foot, FOOT, theme::DARK.text) {
             self.grab = Some(Grab::Plane(clip_plane::Part::Foot, *clip, from));
         }
-        if let Some(from) = self.dot(ui, over, tip, TIP, theme::ACCENT) {
+        if let Some(from) = self.dot(ui, over, tip, TIP, theme::DARK.accent) {
             self.grab = Some(Grab::Plane(clip_plane::Part::Tip, *clip, from));
         }
     }

@@ -29,16 +29,16 @@ pub fn button(ui: &mut Ui, icon: Icon, name: &str, on: bool, enabled: bool) -> R
     let (rect, response) = ui.allocate_exact_size(size, sense);
     let response = response.accessible_name(name);
     let fill = match () {
-        () if response.is_pointer_button_down_on() => theme::RAISED_PRESS,
-        () if response.hovered() && enabled => theme::RAISED_HOVER,
-        () if on => theme::ACCENT_DEEP,
+        () if response.is_pointer_button_down_on() => theme::colours().raised_press,
+        () if response.hovered() && enabled => theme::colours().raised_hover,
+        () if on => theme::colours().accent_deep,
         () => Color32::TRANSPARENT,
     };
     ui.painter().rect_filled(rect, 4, fill);
     let colour = match (enabled, on) {
-        (false, _) => theme::LINE,
-        (true, true) => theme::ACCENT,
-        (true, false) => theme::TEXT,
+        (false, _) => theme::colours().line,
+        (true, true) => theme::colours().accent,
+        (true, false) => theme::colours().text,
     };
     draw(ui.painter(), icon, rect.center(), colour);
     response.on_hover_text(name)

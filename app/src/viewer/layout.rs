@@ -20,7 +20,7 @@ use super::{theme, widgets};
 
 /// Shows the window's contents. Returns the room for the picture, in physical pixels.
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2] {
-    let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 0));
+    let bar = Frame::new().fill(theme::colours().panel).inner_margin(Margin::symmetric(10, 0));
     Panel::top("toolbar").exact_size(40.0).frame(bar).show(ui, |ui| {
         let modes = Modes {
             flying: desk.picture.motion != Motion::Orbit,
@@ -30,19 +30,19 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
         toolbar::show(ui, &desk.session, modes, actions);
     });
     if desk.session.playback.count() > 1 {
-        let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 6));
+        let bar = Frame::new().fill(theme::colours().panel).inner_margin(Margin::symmetric(10, 6));
         Panel::bottom("timeline").exact_size(timeline::HEIGHT).frame(bar).show(ui, |ui| {
             timeline::show(ui, &mut desk.session, actions);
         });
     }
     if desk.start {
-        let side = Frame::new().fill(theme::PANEL);
+        let side = Frame::new().fill(theme::colours().panel);
         Panel::left("start").exact_size(start::WIDTH).resizable(false).frame(side).show(ui, |ui| {
             start::show(ui, desk, actions);
         });
     }
     if desk.side_panel {
-        let side = Frame::new().fill(theme::PANEL);
+        let side = Frame::new().fill(theme::colours().panel);
         Panel::right("side").exact_size(theme::SIDE_WIDTH).resizable(false).frame(side).show(ui, |ui| {
             // In a place of its own: contents that are too wide are cut off, and leave the panel's width alone.
             let place = ui.max_rect();
@@ -148,21 +148,21 @@ fn status(ui: &Ui, desk: &Desk, outer: Rect) {
         let galley = ui.painter().layout(
             text,
             egui::FontId::proportional(15.0),
-            theme::MUTED,
+            theme::colours().muted,
             (outer.width() - 48.0).max(80.0),
         );
-        ui.painter().galley(outer.center() - 0.5 * galley.size(), galley, theme::MUTED);
+        ui.painter().galley(outer.center() - 0.5 * galley.size(), galley, theme::colours().muted);
     }
     if parts.is_empty() {
         return;
     }
     let text = parts.join("   ·   ");
-    let galley = ui.painter().layout_no_wrap(text, theme::small_font(), theme::TEXT);
+    let galley = ui.painter().layout_no_wrap(text, theme::small_font(), theme::DARK.text);
     let size = galley.size() + vec2(18.0, 8.0);
     let place = egui::pos2(outer.center().x, outer.bottom() - 22.0);
     let chip = Rect::from_center_size(place, size);
     ui.painter().rect_filled(chip, 10, Color32::from_black_alpha(170));
-    ui.painter().galley(chip.min + vec2(9.0, 4.0), galley, theme::TEXT);
+    ui.painter().galley(chip.min + vec2(9.0, 4.0), galley, theme::DARK.text);
 }
 
 /// Says that a near or far that is fixed cuts off what would be in the picture.
@@ -219,13 +219,19 @@ fn card(ui: &mut Ui, outer: Rect, row: usize, title: &str, share: f32) -> bool {
     let top = outer.top() + 12.0 + 58.0 * row as f32;
     let corner = egui::pos2(outer.right() - width - 12.0, top);
     let place = Rect::from_min_size(corner, vec2(width, 50.0));
-    ui.painter().rect(place, 6, theme::PANEL, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Inside);
+    ui.painter().rect(
+        place,
+        6,
+        theme::colours().panel,
+        Stroke::new(1.0, theme::colours().line),
+        egui::StrokeKind::Inside,
+    );
     ui.scope_builder(egui::UiBuilder::new().max_rect(place.shrink(8.0)), |ui| {
         ui.add(egui::Label::new(RichText::new(title).small()).truncate());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
             let cancelled = ui.small_button("Cancel").clicked();
             let bar = egui::ProgressBar::new(share.min(1.0)).desired_height(8.0);
-            ui.centered_and_justified(|ui| ui.add(bar.fill(theme::ACCENT)));
+            ui.centered_and_justified(|ui| ui.add(bar.fill(theme::colours().accent)));
             cancelled
         })
         .inner
@@ -243,7 +249,13 @@ fn drop_target(ui: &Ui) {
     let rect = ui.ctx().content_rect();
     painter.rect_filled(rect, 0, Color32::from_black_alpha(150));
     let frame = rect.shrink(24.0);
-    painter.rect_stroke(frame, 12, Stroke::new(2.0, theme::ACCENT), egui::StrokeKind::Inside);
+    painter.rect_stroke(frame, 12, Stroke::new(2.0, theme::DARK.accent), egui::StrokeKind::Inside);
     let text = "Drop particle files or a folder to open them, or a view.json to load it";
-    painter.text(rect.center(), Align2::CENTER_CENTER, text, egui::FontId::proportional(18.0), theme::TEXT);
+    painter.text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        text,
+        egui::FontId::proportional(18.0),
+        theme::DARK.text,
+    );
 }

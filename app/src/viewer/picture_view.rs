@@ -86,7 +86,7 @@ impl PictureView {
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) -> Rect {
         let outer = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(outer, Sense::click_and_drag());
-        ui.painter().rect_filled(outer, 0, theme::GROUND);
+        ui.painter().rect_filled(outer, 0, theme::colours().ground);
         let rect = place(outer, session.fitted(), ui.pixels_per_point());
         Areas::mark(ui, "picture", rect);
         self.refresh(ui.ctx(), &session.overlay);
@@ -96,7 +96,7 @@ impl PictureView {
         }
         if !session.fits_window {
             // Where the saved picture ends.
-            ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
+            ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, theme::colours().line), StrokeKind::Outside);
         }
         self.steer(ui, &response, rect, session);
         self.handles.show(ui, rect, session);

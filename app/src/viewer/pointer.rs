@@ -47,7 +47,7 @@ pub fn show(ui: &Ui, picture: Rect, session: &Session) {
     if let Some(picked) = looking.picked.as_ref().filter(|picked| !picked.lost)
         && let Some(at) = over.place(picked.position())
     {
-        over.ring(at, RING + 2.0, theme::ACCENT, 2.0);
+        over.ring(at, RING + 2.0, theme::DARK.accent, 2.0);
         let name = match picked.mark {
             Mark::Id(id) => format!("id {id}"),
             Mark::Row(row) => format!("row {row}"),
@@ -88,7 +88,7 @@ fn words(session: &Session, pointed: &Pointed) -> String {
 
 /// A card beside the mouse, inside the picture.
 fn tip(over: &Over, cursor: Pos2, text: &str) {
-    let galley = over.painter.layout_no_wrap(text.to_owned(), theme::small_font(), theme::TEXT);
+    let galley = over.painter.layout_no_wrap(text.to_owned(), theme::small_font(), theme::DARK.text);
     let size = galley.size() + vec2(16.0, 12.0);
     let mut corner = cursor + vec2(16.0, 16.0);
     if corner.x + size.x > over.picture.right() {
@@ -99,7 +99,7 @@ fn tip(over: &Over, cursor: Pos2, text: &str) {
     }
     let card = Rect::from_min_size(corner.max(over.picture.min), size);
     over.painter.rect_filled(card, 5, Color32::from_black_alpha(200));
-    over.painter.galley(card.min + vec2(8.0, 6.0), galley, theme::TEXT);
+    over.painter.galley(card.min + vec2(8.0, 6.0), galley, theme::DARK.text);
 }
 
 /// The line between the ends of a distance; to what is under the mouse while there is one end.
@@ -117,7 +117,7 @@ fn distance(over: &Over, session: &Session, target: Option<&Seen>) {
     for end in &ends {
         if let Some(at) = over.place(*end) {
             over.painter.circle_filled(at, 4.5, Color32::from_black_alpha(190));
-            over.painter.circle_filled(at, 3.0, theme::WARNING);
+            over.painter.circle_filled(at, 3.0, theme::DARK.warning);
         }
     }
     if let [from, to] = ends[..]
@@ -125,7 +125,7 @@ fn distance(over: &Over, session: &Session, target: Option<&Seen>) {
     {
         let [a, b] = [a, b].map(|at| over.on_screen(at));
         over.painter.line_segment([a, b], Stroke::new(3.5, Color32::from_black_alpha(170)));
-        over.painter.line_segment([a, b], Stroke::new(1.5, theme::WARNING));
+        over.painter.line_segment([a, b], Stroke::new(1.5, theme::DARK.warning));
         over.text(
             a + 0.5 * (b - a) + vec2(0.0, -10.0),
             Align2::CENTER_BOTTOM,
@@ -181,9 +181,10 @@ impl Over {
 
     /// Text on a dark ground.
     fn text(&self, at: Pos2, align: Align2, text: &str) {
-        let galley = self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.5), theme::TEXT);
+        let galley =
+            self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.5), theme::DARK.text);
         let rect = align.anchor_size(at, galley.size());
         self.painter.rect_filled(rect.expand2(vec2(4.0, 1.0)), 3, Color32::from_black_alpha(170));
-        self.painter.galley(rect.min, galley, theme::TEXT);
+        self.painter.galley(rect.min, galley, theme::DARK.text);
     }
 }

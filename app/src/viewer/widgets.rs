@@ -36,7 +36,7 @@ pub fn section(ui: &mut Ui, title: &'static str, open: bool, contents: impl FnOn
     if response.clicked() {
         state.toggle(ui);
     }
-    let colour = if response.hovered() { Color32::WHITE } else { theme::TEXT };
+    let colour = if response.hovered() { theme::colours().strong } else { theme::colours().text };
     let painter = ui.painter();
     let text = RichText::new(title).size(14.0).color(colour);
     let galley = egui::WidgetText::from(text).into_galley(
@@ -53,7 +53,11 @@ pub fn section(ui: &mut Ui, title: &'static str, open: bool, contents: impl FnOn
         ui.add_space(theme::GAP);
     });
     let line = ui.cursor().top();
-    ui.painter().hline(rect.x_range().expand(f32::from(theme::MARGIN)), line, Stroke::new(1.0, theme::LINE));
+    ui.painter().hline(
+        rect.x_range().expand(f32::from(theme::MARGIN)),
+        line,
+        Stroke::new(1.0, theme::colours().line),
+    );
     ui.add_space(1.0);
 }
 
@@ -71,7 +75,7 @@ pub fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> 
         let size = vec2(theme::LABEL_WIDTH, theme::ROW_HEIGHT);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let font = egui::TextStyle::Body.resolve(ui.style());
-        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, label, font, theme::MUTED);
+        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, label, font, theme::colours().muted);
         contents(ui)
     })
     .inner
@@ -82,7 +86,7 @@ pub fn fact(ui: &mut Ui, label: &str, value: impl Into<String>) -> Response {
     ui.spacing_mut().item_spacing.y = 2.0;
     ui.spacing_mut().interact_size.y = 20.0;
     ui.horizontal(|ui| {
-        ui.label(RichText::new(label).color(theme::MUTED));
+        ui.label(RichText::new(label).color(theme::colours().muted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let text = RichText::new(value.into()).font(theme::number_font());
             ui.add(egui::Label::new(text).truncate());
@@ -101,8 +105,12 @@ pub fn choice<T: PartialEq + Copy>(ui: &mut Ui, chosen: &mut T, choices: &[(T, &
         ui.spacing_mut().button_padding.x = 2.0;
         for (value, label, hint) in choices {
             let here = *chosen == *value;
-            let text = RichText::new(*label).color(if here { Color32::WHITE } else { theme::MUTED });
-            let fill = if here { theme::ACCENT_DEEP } else { theme::RAISED };
+            let text = RichText::new(*label).color(if here {
+                theme::colours().strong
+            } else {
+                theme::colours().muted
+            });
+            let fill = if here { theme::colours().accent_deep } else { theme::colours().raised };
             let button = egui::Button::new(text).fill(fill).min_size(vec2(width, theme::ROW_HEIGHT));
             let response = ui.add(button).accessible_name(*label);
             let response = if hint.is_empty() { response } else { response.on_hover_text(*hint) };

@@ -9,6 +9,7 @@ use super::Kept;
 use crate::places;
 use crate::viewer::budget::Budget;
 use crate::viewer::keymap::{Binding, Keymap};
+use crate::viewer::theme::Appearance;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -23,6 +24,7 @@ pub struct Settings {
     pub device_memory_mib: Option<u32>,
     /// Bytes of frames, in MiB, that are kept beside the one in view.
     pub frame_cache_mib: u32,
+    pub appearance: Appearance,
     /// What moving pictures may take.
     pub budget: Budget,
     /// Size of letters and controls, in times of the system's.
@@ -70,6 +72,7 @@ impl Default for Settings {
             adapter: None,
             device_memory_mib: None,
             frame_cache_mib: 2048,
+            appearance: Appearance::default(),
             budget: Budget::default(),
             scale: 1.0,
             start_page: true,

@@ -73,7 +73,7 @@ fn side<S: 'static>(
     let Some(builder) = drawing([theme::SIDE_WIDTH, height]) else { return };
     let mut harness = builder.build_ui_state(
         move |ui, state| {
-            let ground = egui::Frame::new().fill(theme::PANEL).inner_margin(theme::MARGIN);
+            let ground = egui::Frame::new().fill(theme::colours().panel).inner_margin(theme::MARGIN);
             ground.show(ui, |ui| {
                 ui.take_available_space();
                 show(ui, state);
@@ -163,7 +163,7 @@ fn inspector_of_a_pixel() {
     let mut inspector = Inspector::default();
     let mut harness = builder.build_ui_state(
         move |ui, session| {
-            ui.painter().rect_filled(ui.ctx().content_rect(), 0, theme::GROUND);
+            ui.painter().rect_filled(ui.ctx().content_rect(), 0, theme::colours().ground);
             inspector.show(ui, session, ui.max_rect());
         },
         inspector::looked_into(),

@@ -17,7 +17,7 @@ enum Press {
 pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
     if session.view.bookmarks.is_empty() {
         let text = "Keep cameras by a name. They are saved with the view.";
-        ui.label(RichText::new(text).color(theme::FAINT));
+        ui.label(RichText::new(text).color(theme::colours().faint));
     }
     let ready = session.camera.is_some();
     let mut press = None;

@@ -29,7 +29,7 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         let hint = "The largest tolerance while something moves";
         let field = widgets::number(&mut budget.most, 0.0).range(Budget::MOST);
         ui.add(field).accessible_name("Largest tolerance while moving").on_hover_text(hint);
-        ui.label(RichText::new(in_steps(budget.most)).small().color(theme::MUTED));
+        ui.label(RichText::new(in_steps(budget.most)).small().color(theme::colours().muted));
     });
     let (text, colour) = in_force(session);
     ui.label(RichText::new(text).small().color(colour));
@@ -40,13 +40,14 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
 fn in_force(session: &Session) -> (String, egui::Color32) {
     let raised = session.picture.as_ref().and_then(|picture| picture.raised());
     match (session.view.sampling.tolerance, raised) {
-        (Some(own), Some(raised)) => {
-            (format!("The picture has a tolerance of {}; yours is {own}", plain(raised)), theme::WARNING)
-        }
+        (Some(own), Some(raised)) => (
+            format!("The picture has a tolerance of {}; yours is {own}", plain(raised)),
+            theme::colours().warning,
+        ),
         (Some(own), None) if own >= session.budget.most => {
-            ("Your tolerance is no smaller: only fewer pixels are drawn".into(), theme::MUTED)
+            ("Your tolerance is no smaller: only fewer pixels are drawn".into(), theme::colours().muted)
         }
-        (Some(own), None) => (format!("The picture has your tolerance of {own}"), theme::MUTED),
-        (None, _) => ("Full sampling stays full: only fewer pixels are drawn".into(), theme::MUTED),
+        (Some(own), None) => (format!("The picture has your tolerance of {own}"), theme::colours().muted),
+        (None, _) => ("Full sampling stays full: only fewer pixels are drawn".into(), theme::colours().muted),
     }
 }

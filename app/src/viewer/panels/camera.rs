@@ -13,7 +13,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, motion: &mut Motion, actions: &m
     let drawn = session.picture.as_ref().map(|picture| [picture.stats.near, picture.stats.far]);
     let cut = session.picture.as_ref().map_or([None; 2], |picture| picture.facts.cut);
     let Some(camera) = &mut session.camera else {
-        ui.label(RichText::new("No picture yet.").color(theme::FAINT));
+        ui.label(RichText::new("No picture yet.").color(theme::colours().faint));
         return;
     };
     let before = *camera;
@@ -153,7 +153,7 @@ fn warn(ui: &mut Ui, camera: &mut OrbitCamera, cut: [Option<f64>; 2]) {
         let Some(depth) = depth.filter(|_| setting.is_some()) else { continue };
         ui.horizontal(|ui| {
             let text = format!("{what} {}", widgets::short(depth));
-            ui.label(RichText::new(text).small().color(theme::WARNING));
+            ui.label(RichText::new(text).small().color(theme::colours().warning));
             let name = if what.starts_with("Near") { "Fit near" } else { "Fit far" };
             if ui.small_button(name).on_hover_text("Automatic: nothing is cut off").clicked() {
                 *setting = None;

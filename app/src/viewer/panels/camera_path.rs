@@ -11,7 +11,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
     if session.playback.count() < 2 {
         let text =
             "A run of one frame has no path. Pictures of it from all sides: sphcast render --turntable N";
-        ui.label(RichText::new(text).color(theme::FAINT));
+        ui.label(RichText::new(text).color(theme::colours().faint));
         return;
     }
     keyframes(ui, session, actions);
@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
     });
     if !empty {
         let text = "The path is saved with the view, and render --view follows it.";
-        ui.label(RichText::new(text).small().color(theme::FAINT));
+        ui.label(RichText::new(text).small().color(theme::colours().faint));
     }
 }
 

@@ -41,7 +41,7 @@ pub fn colour(class: CellClass) -> Color32 {
 /// One bar, divided as the cells are.
 fn stacked(ui: &mut Ui, entries: &[Entry]) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 10.0), Sense::hover());
-    ui.painter().rect_filled(rect, 2, theme::WELL);
+    ui.painter().rect_filled(rect, 2, theme::colours().well);
     let mut left = rect.left();
     for Entry { class, share, .. } in entries {
         let right = left + *share as f32 * rect.width();
@@ -62,9 +62,9 @@ fn legend(ui: &mut Ui, entries: &[Entry]) {
             painter.rect_filled(swatch, 2, colour(*class));
             let font = egui::TextStyle::Body.resolve(ui.style());
             let name_at = rect.left_center() + vec2(18.0, 0.0);
-            painter.text(name_at, Align2::LEFT_CENTER, look(*class).name, font, theme::MUTED);
+            painter.text(name_at, Align2::LEFT_CENTER, look(*class).name, font, theme::colours().muted);
             let number = |place, text: String| {
-                painter.text(place, Align2::RIGHT_CENTER, text, theme::number_font(), theme::TEXT);
+                painter.text(place, Align2::RIGHT_CENTER, text, theme::number_font(), theme::colours().text);
             };
             number(rect.right_center() - vec2(64.0, 0.0), widgets::count(*count));
             number(rect.right_center(), widgets::percent(*share));

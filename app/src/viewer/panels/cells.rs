@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, measurement: Option<&State>, act
             opacity(ui, &mut session.overlay);
             if measurement.is_none() {
                 let text = "Not measured for this view: see Sampling above.";
-                ui.label(RichText::new(text).small().color(theme::MUTED));
+                ui.label(RichText::new(text).small().color(theme::colours().muted));
             }
         }
     }
@@ -64,7 +64,7 @@ fn adapt_anyway(ui: &mut Ui, session: &mut Session) {
     });
     if given_up {
         let text = "Sampled in full: to adapt this view would take longer than it saves.";
-        ui.label(RichText::new(text).small().color(theme::MUTED));
+        ui.label(RichText::new(text).small().color(theme::colours().muted));
         let button = ui.button("Adapt it anyway").on_hover_text("Sampling: Adapt, even where it hardly pays");
         Areas::mark(ui, "adapt-anyway", button.rect);
         if button.clicked() {

@@ -54,7 +54,7 @@ fn line(ui: &mut Ui, map: &ColourMap, chosen: bool) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + 92.0, 22.0), Sense::click());
     let response = response.accessible_name(map.name);
     if chosen || response.hovered() {
-        let fill = if chosen { theme::ACCENT_DEEP } else { theme::RAISED_HOVER };
+        let fill = if chosen { theme::colours().accent_deep } else { theme::colours().raised_hover };
         ui.painter().rect_filled(rect, 4, fill);
     }
     let swatch = Rect::from_min_size(pos2(rect.left() + 5.0, rect.top() + 5.0), vec2(SWATCH, 12.0));
@@ -62,7 +62,7 @@ fn line(ui: &mut Ui, map: &ColourMap, chosen: bool) -> bool {
     gradient(ui.painter(), swatch, |u| (swatch.top(), to_screen(map.colours()[(u * last).round() as usize])));
     let place = pos2(swatch.right() + 9.0, rect.center().y);
     let font = egui::TextStyle::Body.resolve(ui.style());
-    ui.painter().text(place, egui::Align2::LEFT_CENTER, map.name, font, theme::TEXT);
+    ui.painter().text(place, egui::Align2::LEFT_CENTER, map.name, font, theme::colours().text);
     let clicked = response.clicked();
     if clicked {
         ui.close();

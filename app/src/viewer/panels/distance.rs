@@ -66,5 +66,5 @@ pub fn card(ui: &mut Ui, session: &mut Session) {
 }
 
 fn hint(ui: &mut Ui, text: &str) {
-    ui.label(RichText::new(text).color(theme::MUTED));
+    ui.label(RichText::new(text).color(theme::colours().muted));
 }

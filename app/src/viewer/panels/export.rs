@@ -230,7 +230,7 @@ impl ExportForm {
                 ui.add(field).accessible_name("Frame rate");
             });
             if self.ffmpeg == Some(false) {
-                ui.label(RichText::new(MISSING).color(theme::WARNING));
+                ui.label(RichText::new(MISSING).color(theme::colours().warning));
             }
             return;
         }
@@ -262,7 +262,7 @@ impl ExportForm {
             if self.kind == Kind::Sequence {
                 name.on_hover_text("{:04} stands for the number of the frame, in four digits");
             }
-            ui.label(RichText::new(self.ending()).color(theme::MUTED));
+            ui.label(RichText::new(self.ending()).color(theme::colours().muted));
         });
     }
 

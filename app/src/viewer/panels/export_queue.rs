@@ -52,7 +52,8 @@ fn line(ui: &mut Ui, export: &Export) -> Option<Wish> {
     });
     let (text, colour) = words(export);
     if matches!(export.state, State::Running) {
-        let bar = ProgressBar::new(export.progress().whole()).desired_height(6.0).fill(theme::ACCENT);
+        let bar =
+            ProgressBar::new(export.progress().whole()).desired_height(6.0).fill(theme::colours().accent);
         ui.add(bar);
     }
     ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
@@ -79,10 +80,10 @@ fn buttons(ui: &mut Ui, export: &Export, name: &str) -> Option<Wish> {
 /// How it stands with an export.
 fn words(export: &Export) -> (String, egui::Color32) {
     match &export.state {
-        State::Waiting => ("Waits for the one before it".into(), theme::MUTED),
-        State::Running => (running(&export.progress(), Instant::now()), theme::MUTED),
-        State::Cancelled => ("Cancelled; what is done stays".into(), theme::WARNING),
-        State::Failed(why) => (why.clone(), theme::ERROR),
+        State::Waiting => ("Waits for the one before it".into(), theme::colours().muted),
+        State::Running => (running(&export.progress(), Instant::now()), theme::colours().muted),
+        State::Cancelled => ("Cancelled; what is done stays".into(), theme::colours().warning),
+        State::Failed(why) => (why.clone(), theme::colours().error),
         State::Done(summary) => {
             let made = summary.frames - summary.kept - summary.failed.len();
             let mut text = match made {
@@ -93,8 +94,8 @@ fn words(export: &Export) -> (String, egui::Color32) {
                 text += &format!(", {} kept", summary.kept);
             }
             match summary.failed.len() {
-                0 => (text, theme::MUTED),
-                failed => (format!("{text}, {failed} could not be drawn"), theme::WARNING),
+                0 => (text, theme::colours().muted),
+                failed => (format!("{text}, {failed} could not be drawn"), theme::colours().warning),
             }
         }
     }

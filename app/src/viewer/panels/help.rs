@@ -59,14 +59,14 @@ fn group(ui: &mut Ui, name: &str) {
 }
 
 fn title(ui: &mut Ui, name: &str) {
-    ui.label(RichText::new(name).strong().color(theme::ACCENT));
+    ui.label(RichText::new(name).strong().color(theme::colours().accent));
 }
 
 fn line(ui: &mut Ui, keys: &str, meaning: &str) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), egui::Sense::hover());
     let font = egui::FontId::proportional(13.5);
     let painter = ui.painter();
-    painter.text(rect.left_center(), Align2::LEFT_CENTER, keys, font.clone(), theme::MUTED);
+    painter.text(rect.left_center(), Align2::LEFT_CENTER, keys, font.clone(), theme::colours().muted);
     let place = rect.left_center() + vec2(KEYS_WIDTH, 0.0);
-    painter.text(place, Align2::LEFT_CENTER, meaning, font, theme::TEXT);
+    painter.text(place, Align2::LEFT_CENTER, meaning, font, theme::colours().text);
 }

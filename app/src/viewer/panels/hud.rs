@@ -37,7 +37,7 @@ impl Hud {
         // Dark over any picture, and what lies below is still there.
         let frame = egui::Frame::new()
             .fill(Color32::from_rgba_unmultiplied(0x11, 0x13, 0x16, 232))
-            .stroke(Stroke::new(1.0, theme::LINE))
+            .stroke(Stroke::new(1.0, theme::DARK.line))
             .corner_radius(8)
             .inner_margin(MARGIN);
         egui::Window::new("Performance over the picture")
@@ -77,7 +77,7 @@ impl Hud {
         let Some(last) = costs.last() else {
             ui.add_sized(
                 vec2(WIDTH, 60.0),
-                egui::Label::new(RichText::new("No picture yet.").color(theme::MUTED)),
+                egui::Label::new(RichText::new("No picture yet.").color(theme::DARK.muted)),
             );
             return;
         };
@@ -114,15 +114,21 @@ fn headline(ui: &mut Ui, entry: &Entry, ago: usize, rate: Option<f64>) {
         _ => "Tolerance".into(),
     };
     let cells = [
-        (which.as_str(), in_milliseconds(entry.total()), theme::TEXT),
-        ("While moving", rate, theme::TEXT),
-        ("Resolution", resolution, theme::TEXT),
-        (wished.as_str(), tolerance, if entry.is_raised() { theme::WARNING } else { theme::TEXT }),
+        (which.as_str(), in_milliseconds(entry.total()), theme::DARK.text),
+        ("While moving", rate, theme::DARK.text),
+        ("Resolution", resolution, theme::DARK.text),
+        (wished.as_str(), tolerance, if entry.is_raised() { theme::DARK.warning } else { theme::DARK.text }),
     ];
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 40.0), Sense::hover());
     for ((caption, value, ink), left) in cells.into_iter().zip(HEADLINE) {
         let place = rect.left_top() + vec2(left, 0.0);
-        ui.painter().text(place, Align2::LEFT_TOP, caption, egui::FontId::proportional(10.5), theme::MUTED);
+        ui.painter().text(
+            place,
+            Align2::LEFT_TOP,
+            caption,
+            egui::FontId::proportional(10.5),
+            theme::DARK.muted,
+        );
         let place = place + vec2(0.0, 15.0);
         ui.painter().text(place, Align2::LEFT_TOP, value, egui::FontId::proportional(16.0), ink);
     }
@@ -143,10 +149,10 @@ fn legend(ui: &mut Ui, entry: &Entry) {
         let painter = ui.painter();
         painter.rect_filled(swatch, 2, hud_chart::colour(stage));
         let name_at = cell.left_center() + vec2(14.0, 0.0);
-        painter.text(name_at, Align2::LEFT_CENTER, stage.name(), theme::small_font(), theme::MUTED);
+        painter.text(name_at, Align2::LEFT_CENTER, stage.name(), theme::small_font(), theme::DARK.muted);
         let (text, ink) = match entry.of(stage) {
-            0.0 => ("–".to_owned(), theme::FAINT),
-            milliseconds => (in_milliseconds(milliseconds), theme::TEXT),
+            0.0 => ("–".to_owned(), theme::DARK.faint),
+            milliseconds => (in_milliseconds(milliseconds), theme::DARK.text),
         };
         painter.text(cell.right_center(), Align2::RIGHT_CENTER, text, theme::number_font(), ink);
         ui.interact(cell, ui.scope_id().with(stage.name()), Sense::hover()).on_hover_text(meaning(stage));
@@ -201,15 +207,21 @@ fn facts(ui: &mut Ui, session: &Session, entry: &Entry, measured: Option<&State>
     ui.add_space(2.0);
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), LINE * rows as f32 + 5.0), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.top(), Stroke::new(1.0, theme::LINE));
+    ui.painter().hline(rect.x_range(), rect.top(), Stroke::new(1.0, theme::DARK.line));
     let width = 0.5 * (rect.width() - gap);
     for (number, (caption, value, hint)) in lines.into_iter().enumerate() {
         let left = rect.left() + (number % 2) as f32 * (width + gap);
         let top = rect.top() + 5.0 + (number / 2) as f32 * LINE;
         let cell = Rect::from_min_size(pos2(left, top), vec2(width, LINE));
         let painter = ui.painter();
-        painter.text(cell.left_center(), Align2::LEFT_CENTER, caption, theme::small_font(), theme::MUTED);
-        painter.text(cell.right_center(), Align2::RIGHT_CENTER, value, theme::small_font(), theme::TEXT);
+        painter.text(
+            cell.left_center(),
+            Align2::LEFT_CENTER,
+            caption,
+            theme::small_font(),
+            theme::DARK.muted,
+        );
+        painter.text(cell.right_center(), Align2::RIGHT_CENTER, value, theme::small_font(), theme::DARK.text);
         ui.interact(cell, ui.scope_id().with(caption), Sense::hover()).on_hover_text(hint);
     }
 }

@@ -58,16 +58,16 @@ pub fn show(ui: &mut Ui, costs: &Costs, limit: Option<f64>, hovered: Option<usiz
         stack(painter, bars, place, entry, top);
         // A fifth less for each halving: 1/16 is still to be seen.
         let share = 1.0 - 0.2 * f64::from(entry.divisor.max(1)).log2();
-        lane(painter, resolution, place, share, theme::ACCENT.gamma_multiply(0.75));
+        lane(painter, resolution, place, share, theme::DARK.accent.gamma_multiply(0.75));
         if let (Some(tolerance), Some(predicted)) = (entry.tolerance, entry.predicted) {
-            let colour = if entry.is_raised() { theme::WARNING } else { theme::MUTED };
+            let colour = if entry.is_raised() { theme::DARK.warning } else { theme::DARK.muted };
             lane(painter, error, place, predicted / tolerance, colour.gamma_multiply(0.8));
         }
     }
     if let Some(limit) = limit.filter(|limit| *limit <= top) {
         let y = bars.bottom() - (limit / top) as f32 * bars.height();
         let ends = [pos2(bars.left(), y), pos2(bars.right(), y)];
-        painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, theme::WARNING), 4.0, 3.0));
+        painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, theme::DARK.warning), 4.0, 3.0));
     }
     for (rect, text) in [(resolution, "Resolution"), (error, "Error share")] {
         caption(painter, rect, rect.center().y, text);
@@ -131,7 +131,7 @@ fn ticks(painter: &Painter, rect: Rect, top: f64) {
 
 fn caption(painter: &Painter, rect: Rect, y: f32, text: &str) {
     let place = pos2(rect.left() - 6.0, y);
-    painter.text(place, Align2::RIGHT_CENTER, text, egui::FontId::proportional(10.5), theme::MUTED);
+    painter.text(place, Align2::RIGHT_CENTER, text, egui::FontId::proportional(10.5), theme::DARK.muted);
 }
 
 /// The stages of a picture over one another.

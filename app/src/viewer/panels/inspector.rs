@@ -56,12 +56,16 @@ impl Inspector {
     fn contents(&mut self, ui: &mut Ui, session: &Session) {
         let probed = session.picture.as_ref().and_then(|picture| picture.probed.as_ref());
         let Some(probed) = probed else {
-            ui.add_sized(vec2(WIDTH, 60.0), egui::Label::new(RichText::new("Looking…").color(theme::MUTED)));
+            ui.add_sized(
+                vec2(WIDTH, 60.0),
+                egui::Label::new(RichText::new("Looking…").color(theme::colours().muted)),
+            );
             return;
         };
         facts(ui, probed);
         if probed.bundle.cells.is_empty() {
-            let text = RichText::new("No particle reaches the rays of this bundle.").color(theme::MUTED);
+            let text =
+                RichText::new("No particle reaches the rays of this bundle.").color(theme::colours().muted);
             ui.add_sized(vec2(WIDTH, 60.0), egui::Label::new(text));
             return;
         }
@@ -125,7 +129,7 @@ fn facts(ui: &mut Ui, probed: &Probed) {
         }
     };
     for text in [first, second] {
-        ui.label(RichText::new(text).small().color(theme::MUTED));
+        ui.label(RichText::new(text).small().color(theme::colours().muted));
     }
     ui.add_space(4.0);
 }

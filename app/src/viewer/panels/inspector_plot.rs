@@ -68,13 +68,13 @@ pub fn show(ui: &mut Ui, session: &Session, probed: &Probed, hovered: Option<u32
         *now = probed.bundle.cells.iter().map(|cell| cell.cell.layer).find(|known| *known == layer);
     }
     let painter = ui.painter();
-    painter.rect_filled(upper, 2, theme::WELL);
+    painter.rect_filled(upper, 2, theme::colours().well);
     values(painter, session, probed, &axis, hovered);
     let mut bottom = upper.bottom();
     if let Some(budget) = budget {
         let top = rect.top() + VALUES + GAP;
         let lower = Rect::from_min_max(pos2(upper.left(), top), pos2(upper.right(), top + CHARGES));
-        painter.rect_filled(lower, 2, theme::WELL);
+        painter.rect_filled(lower, 2, theme::colours().well);
         band(painter, &axis, lower, hovered);
         charged(painter, probed, budget, &axis, lower);
         bottom = lower.bottom();
@@ -87,7 +87,7 @@ fn band(painter: &Painter, axis: &Axis, rect: Rect, layer: Option<u32>) {
     if let Some(layer) = layer {
         let left = axis.x(layer as f32);
         let band = Rect::from_x_y_ranges(left..=left + axis.step().max(2.0), rect.y_range());
-        painter.rect_filled(band, 0, Color32::from_white_alpha(26));
+        painter.rect_filled(band, 0, theme::colours().raised);
     }
 }
 
@@ -162,9 +162,9 @@ fn scale(painter: &Painter, session: &Session, rect: Rect) {
     }
     for (u, text) in [(0.0, "0"), (0.5, "½"), (1.0, "1")] {
         let y = rect.bottom() - u * rect.height();
-        painter.hline(rect.x_range(), y, Stroke::new(1.0, theme::LINE));
+        painter.hline(rect.x_range(), y, Stroke::new(1.0, theme::colours().line));
         let place = pos2(rect.left() - 12.0, y);
-        painter.text(place, Align2::RIGHT_CENTER, text, theme::small_font(), theme::FAINT);
+        painter.text(place, Align2::RIGHT_CENTER, text, theme::small_font(), theme::colours().faint);
     }
     let place = rect.left_top() + vec2(0.0, -3.0);
     let what = match session.opacity_field() {
@@ -172,17 +172,17 @@ fn scale(painter: &Painter, session: &Session, rect: Rect) {
         Some(_) => "u, the opacity's field in its range",
     };
     let text = format!("{what}: bounds in each cell, and in its parts along this pixel");
-    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::MUTED);
+    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::colours().muted);
 }
 
 /// What is charged to the pixel's rays, added up from front to back, under the budget.
 fn charged(painter: &Painter, probed: &Probed, budget: f32, axis: &Axis, rect: Rect) {
     let y = |charge: f32| rect.bottom() - charge / (1.15 * budget) * rect.height();
-    painter.hline(rect.x_range(), y(budget), Stroke::new(1.0, theme::WARNING.gamma_multiply(0.7)));
+    painter.hline(rect.x_range(), y(budget), Stroke::new(1.0, theme::colours().warning.gamma_multiply(0.7)));
     let place = pos2(rect.left() - 4.0, y(budget));
-    painter.text(place, Align2::RIGHT_CENTER, "E", theme::small_font(), theme::WARNING);
+    painter.text(place, Align2::RIGHT_CENTER, "E", theme::small_font(), theme::colours().warning);
     let zero = pos2(rect.left() - 12.0, rect.bottom());
-    painter.text(zero, Align2::RIGHT_CENTER, "0", theme::small_font(), theme::FAINT);
+    painter.text(zero, Align2::RIGHT_CENTER, "0", theme::small_font(), theme::colours().faint);
 
     let column = probed.column();
     let sums = cumulative(&probed.bundle.cells, column);
@@ -198,11 +198,11 @@ fn charged(painter: &Painter, probed: &Probed, budget: f32, axis: &Axis, rect: R
     points.retain(|point| point.x <= end + 0.5);
     let last = points.last().map_or(rect.bottom(), |point| point.y);
     points.extend([pos2(end, last), pos2(end, y(all)), pos2(rect.right(), y(all))]);
-    painter.line(points, Stroke::new(1.5, theme::ACCENT));
+    painter.line(points, Stroke::new(1.5, theme::colours().accent));
 
     let place = rect.left_top() + vec2(0.0, -3.0);
     let text = format!("charged from the front up to here, {} in all; E: the budget", plain(f64::from(all)));
-    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::MUTED);
+    painter.text(place, Align2::LEFT_BOTTOM, text, theme::small_font(), theme::colours().muted);
 }
 
 /// Depths below the plots, and where the rays end.
@@ -212,7 +212,7 @@ fn depths(painter: &Painter, bundle: &BundleDetail, axis: &Axis, bottom: f32) {
         let x = axis.x(bundle.end_layer as f32);
         painter.extend(egui::Shape::dashed_line(
             &[pos2(x, whole.top()), pos2(x, whole.bottom())],
-            Stroke::new(1.0, theme::MUTED),
+            Stroke::new(1.0, theme::colours().muted),
             3.0,
             3.0,
         ));
@@ -220,10 +220,10 @@ fn depths(painter: &Painter, bundle: &BundleDetail, axis: &Axis, bottom: f32) {
         let aside = if x > whole.center().x { -4.0 } else { 4.0 };
         let place = pos2(x + aside, whole.top() + 18.0);
         let text = "the rays end".to_owned();
-        let galley = painter.layout_no_wrap(text, theme::small_font(), theme::TEXT);
+        let galley = painter.layout_no_wrap(text, theme::small_font(), theme::colours().text);
         let area = align.anchor_size(place, galley.size());
-        painter.rect_filled(area.expand2(vec2(3.0, 1.0)), 2, Color32::from_black_alpha(190));
-        painter.galley(area.min, galley, theme::TEXT);
+        painter.rect_filled(area.expand2(vec2(3.0, 1.0)), 2, theme::colours().panel);
+        painter.galley(area.min, galley, theme::colours().text);
     }
     let (Some(first), Some(last)) = (bundle.cells.first(), bundle.cells.last()) else { return };
     let ends = [
@@ -232,8 +232,8 @@ fn depths(painter: &Painter, bundle: &BundleDetail, axis: &Axis, bottom: f32) {
     ];
     for (x, depth, align) in ends {
         let place = pos2(x, bottom + 3.0);
-        painter.text(place, align, widgets::short(depth), theme::number_font(), theme::MUTED);
+        painter.text(place, align, widgets::short(depth), theme::number_font(), theme::colours().muted);
     }
     let place = pos2(whole.center().x, bottom + 3.0);
-    painter.text(place, Align2::CENTER_TOP, "view depth", theme::small_font(), theme::FAINT);
+    painter.text(place, Align2::CENTER_TOP, "view depth", theme::small_font(), theme::colours().faint);
 }

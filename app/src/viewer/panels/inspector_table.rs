@@ -1,6 +1,6 @@
 //! The cells behind a pixel as a table, from front to back.
 
-use egui::{Align2, Color32, Rect, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::{Align2, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use renderer::{CellDetail, KnownValues, Placement};
 
 use crate::overlay::look;
@@ -57,19 +57,19 @@ fn header(ui: &mut Ui) {
             _ => (Align2::RIGHT_CENTER, edge),
         };
         let place = pos2(rect.left() + edge, rect.center().y);
-        ui.painter().text(place, align, title, theme::small_font(), theme::MUTED);
+        ui.painter().text(place, align, title, theme::small_font(), theme::colours().muted);
         let area = Rect::from_x_y_ranges(rect.left() + left..=rect.left() + right, rect.y_range());
         ui.interact(area, ui.scope_id().with(title), Sense::hover()).on_hover_text(meaning);
         left = right;
     }
-    ui.painter().hline(rect.x_range(), rect.bottom(), egui::Stroke::new(1.0, theme::LINE));
+    ui.painter().hline(rect.x_range(), rect.bottom(), egui::Stroke::new(1.0, theme::colours().line));
 }
 
 /// A line for a cell. Returns whether the mouse is over it.
 fn row(ui: &mut Ui, probed: &Probed, cell: &CellDetail, hovered: Option<u32>) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     if hovered == Some(cell.cell.layer) {
-        ui.painter().rect_filled(rect, 2, Color32::from_white_alpha(18));
+        ui.painter().rect_filled(rect, 2, theme::colours().raised);
     }
     let texts = texts(probed, cell);
     for (number, (text, (_, edge, _))) in texts.iter().zip(COLUMNS).enumerate() {
@@ -78,9 +78,15 @@ fn row(ui: &mut Ui, probed: &Probed, cell: &CellDetail, hovered: Option<u32>) ->
             let swatch = Rect::from_center_size(place + vec2(5.0, 0.0), vec2(10.0, 10.0));
             ui.painter().rect_filled(swatch, 2, colour(cell.cell.class));
             let font = egui::FontId::proportional(12.5);
-            ui.painter().text(place + vec2(17.0, 0.0), Align2::LEFT_CENTER, text, font, theme::TEXT);
+            ui.painter().text(
+                place + vec2(17.0, 0.0),
+                Align2::LEFT_CENTER,
+                text,
+                font,
+                theme::colours().text,
+            );
         } else {
-            let ink = if text == NOTHING { theme::FAINT } else { theme::TEXT };
+            let ink = if text == NOTHING { theme::colours().faint } else { theme::colours().text };
             ui.painter().text(place, Align2::RIGHT_CENTER, text, theme::number_font(), ink);
         }
     }

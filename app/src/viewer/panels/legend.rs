@@ -67,5 +67,5 @@ fn outlined(ui: &Ui, place: egui::Pos2, align: Align2, text: &str, font: egui::F
     for offset in [vec2(1.0, 1.0), vec2(-1.0, 1.0), vec2(1.0, -1.0), vec2(-1.0, -1.0)] {
         ui.painter().text(place + offset, align, text, font.clone(), Color32::from_black_alpha(150));
     }
-    ui.painter().text(place, align, text, font, theme::TEXT);
+    ui.painter().text(place, align, text, font, theme::DARK.text);
 }

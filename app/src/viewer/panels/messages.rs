@@ -1,6 +1,6 @@
 //! Messages over the upper left of the picture.
 
-use egui::{Align, Color32, Frame, Layout, Margin, Rect, RichText, Stroke, Ui, UiBuilder, vec2};
+use egui::{Align, Frame, Layout, Margin, Rect, RichText, Stroke, Ui, UiBuilder, vec2};
 
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::messages::{Message, Severity};
@@ -31,13 +31,13 @@ pub fn show(ui: &mut Ui, session: &mut Session, picture: Rect) {
 /// One message. Returns whether it is to go.
 fn card(ui: &mut Ui, message: &Message) -> bool {
     let colour = match message.severity {
-        Severity::Note => theme::ACCENT,
-        Severity::Warning => theme::WARNING,
-        Severity::Error => theme::ERROR,
+        Severity::Note => theme::colours().accent,
+        Severity::Warning => theme::colours().warning,
+        Severity::Error => theme::colours().error,
     };
     let frame = Frame::new()
-        .fill(Color32::from_rgba_unmultiplied(0x1a, 0x1d, 0x22, 240))
-        .stroke(Stroke::new(1.0, theme::LINE))
+        .fill(theme::colours().panel)
+        .stroke(Stroke::new(1.0, theme::colours().line))
         .corner_radius(6)
         .inner_margin(Margin { left: 14, right: 6, top: 6, bottom: 6 });
     let shown = frame.show(ui, |ui| {

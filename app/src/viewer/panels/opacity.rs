@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, frame: &Frame) {
         let text = format!(
             "Along the transfer function, colours and histogram are of {colour}, opacities of {opacity}."
         );
-        ui.label(RichText::new(text).small().color(theme::MUTED));
+        ui.label(RichText::new(text).small().color(theme::colours().muted));
     }
 }
 

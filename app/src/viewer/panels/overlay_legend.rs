@@ -64,7 +64,7 @@ fn classes(ui: &Ui, session: &Session, layers: &Layers, picture: Rect) {
     ui.painter().rect_filled(ground, 6, Color32::from_black_alpha(190));
     let inside = ground.shrink(margin);
     let line = |row: usize| inside.left_top() + vec2(0.0, step * (row as f32 + 0.5));
-    ui.painter().text(line(0), Align2::LEFT_CENTER, title(session), theme::small_font(), theme::MUTED);
+    ui.painter().text(line(0), Align2::LEFT_CENTER, title(session), theme::small_font(), theme::DARK.muted);
     let all = counts.iter().sum::<u64>().max(1) as f64;
     for (row, (class, count)) in shown.into_iter().enumerate() {
         let look = look(class);
@@ -73,10 +73,10 @@ fn classes(ui: &Ui, session: &Session, layers: &Layers, picture: Rect) {
         let swatch = Rect::from_center_size(place + vec2(5.5, 0.0), vec2(11.0, 11.0));
         ui.painter().rect_filled(swatch, 2, Color32::from_rgb(r, g, b));
         let font = egui::FontId::proportional(13.0);
-        ui.painter().text(place + vec2(19.0, 0.0), Align2::LEFT_CENTER, look.name, font, theme::TEXT);
+        ui.painter().text(place + vec2(19.0, 0.0), Align2::LEFT_CENTER, look.name, font, theme::DARK.text);
         let right = pos2(inside.right(), place.y);
         let share = widgets::percent(count as f64 / all);
-        ui.painter().text(right, Align2::RIGHT_CENTER, share, theme::number_font(), theme::TEXT);
+        ui.painter().text(right, Align2::RIGHT_CENTER, share, theme::number_font(), theme::DARK.text);
     }
 }
 

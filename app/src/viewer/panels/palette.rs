@@ -58,7 +58,7 @@ impl Palette {
         ui.add_space(4.0);
         let mut called = found.get(self.chosen).copied().filter(|_| enter);
         if found.is_empty() {
-            ui.label(RichText::new("There is no such command.").color(theme::MUTED));
+            ui.label(RichText::new("There is no such command.").color(theme::colours().muted));
         }
         egui::ScrollArea::vertical().max_height(LINES * LINE_HEIGHT).auto_shrink([false, true]).show(
             ui,
@@ -85,17 +85,17 @@ fn line(ui: &mut Ui, action: Action, chosen: bool) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
     let response = response.accessible_name(meaning(action));
     if chosen || response.hovered() {
-        let fill = if chosen { theme::ACCENT_DEEP } else { theme::RAISED };
+        let fill = if chosen { theme::colours().accent_deep } else { theme::colours().raised };
         ui.painter().rect_filled(rect, 4, fill);
     }
     let font = egui::TextStyle::Body.resolve(ui.style());
     let left = rect.left_center() + vec2(8.0, 0.0);
-    ui.painter().text(left, Align2::LEFT_CENTER, group(action), font.clone(), theme::MUTED);
+    ui.painter().text(left, Align2::LEFT_CENTER, group(action), font.clone(), theme::colours().muted);
     let name = left + vec2(64.0, 0.0);
-    ui.painter().text(name, Align2::LEFT_CENTER, meaning(action), font, theme::TEXT);
+    ui.painter().text(name, Align2::LEFT_CENTER, meaning(action), font, theme::colours().text);
     let right = rect.right_center() - vec2(8.0, 0.0);
     let keys = keys(ui.ctx(), action);
-    ui.painter().text(right, Align2::RIGHT_CENTER, keys, theme::small_font(), theme::MUTED);
+    ui.painter().text(right, Align2::RIGHT_CENTER, keys, theme::small_font(), theme::colours().muted);
     response
 }
 

@@ -17,7 +17,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, hud: bool, actions: &mut Vec<Act
         actions.push(Action::Performance);
     }
     let Some(picture) = &session.picture else {
-        ui.label(RichText::new("No picture yet.").color(theme::FAINT));
+        ui.label(RichText::new("No picture yet.").color(theme::colours().faint));
         return;
     };
     let stats = &picture.stats;
@@ -57,7 +57,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, hud: bool, actions: &mut Vec<Act
         if software { format!("{}, on the CPU", stats.backend) } else { stats.backend.clone() },
     );
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Adapter").color(theme::MUTED));
+        ui.label(RichText::new("Adapter").color(theme::colours().muted));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add(egui::Label::new(RichText::new(&stats.adapter).small()).truncate())
                 .on_hover_text(&stats.adapter);
@@ -70,12 +70,18 @@ fn bar(ui: &mut Ui, name: &str, ms: f64, share: f64) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
     let font = egui::TextStyle::Body.resolve(ui.style());
     let painter = ui.painter();
-    painter.text(rect.left_center(), Align2::LEFT_CENTER, name, font, theme::MUTED);
+    painter.text(rect.left_center(), Align2::LEFT_CENTER, name, font, theme::colours().muted);
     let text = if ms < 100.0 { format!("{ms:.2} ms") } else { format!("{ms:.0} ms") };
-    painter.text(rect.right_center(), Align2::RIGHT_CENTER, text, theme::number_font(), theme::TEXT);
+    painter.text(
+        rect.right_center(),
+        Align2::RIGHT_CENTER,
+        text,
+        theme::number_font(),
+        theme::colours().text,
+    );
     let mut track = rect.shrink2(vec2(0.0, 6.0));
     track.set_left(rect.left() + theme::LABEL_WIDTH);
     track.set_right(rect.right() - 86.0);
     track.set_width(track.width() * share.clamp(0.0, 1.0) as f32);
-    painter.rect_filled(track, 2, theme::ACCENT);
+    painter.rect_filled(track, 2, theme::colours().accent);
 }

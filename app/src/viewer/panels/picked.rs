@@ -53,7 +53,7 @@ pub fn card(ui: &mut Ui, session: &mut Session) {
     let open = header(ui, picked);
     if picked.lost {
         let text = "This frame has no such particle; shown as it was last.";
-        ui.label(RichText::new(text).small().color(theme::WARNING));
+        ui.label(RichText::new(text).small().color(theme::colours().warning));
     }
     ScrollArea::vertical().max_height(HEIGHT).show(ui, |ui| values(ui, picked, scale));
     ui.add_space(4.0);
@@ -91,7 +91,7 @@ fn header(ui: &mut Ui, picked: &Picked) -> bool {
         })
         .inner;
     let text = format!("Frame {}, row {}, {known}", picked.index, picked.row);
-    ui.label(RichText::new(text).small().color(theme::MUTED));
+    ui.label(RichText::new(text).small().color(theme::colours().muted));
     open
 }
 

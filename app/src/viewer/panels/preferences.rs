@@ -6,7 +6,8 @@ use crate::viewer::desk::Desk;
 use crate::viewer::kept::Settings;
 use crate::viewer::keymap::{Keymap, actions};
 use crate::viewer::shortcuts::{Action, meaning};
-use crate::viewer::{theme, widgets};
+use crate::viewer::theme::{self, Appearance};
+use crate::viewer::widgets;
 
 /// The open settings.
 #[derive(Default)]
@@ -57,6 +58,14 @@ impl Preferences {
     }
 
     pub fn program(&self, ui: &mut Ui, settings: &mut Settings) {
+        widgets::row(ui, "Appearance", |ui| {
+            let choices = [
+                (Appearance::Dark, "Dark", ""),
+                (Appearance::Light, "Light", ""),
+                (Appearance::System, "System", "As the desktop has it; dark where it does not say"),
+            ];
+            widgets::choice(ui, &mut settings.appearance, &choices);
+        });
         self.adapter(ui, settings);
         widgets::row(ui, "Frame memory", |ui| {
             let range = Settings::FRAME_CACHE_MIB;
@@ -104,7 +113,7 @@ impl Preferences {
                     ui.selectable_value(&mut settings.adapter, Some(name.clone()), name);
                 }
                 if self.adapters.is_none() {
-                    ui.label(RichText::new("Asking the drivers…").color(theme::MUTED));
+                    ui.label(RichText::new("Asking the drivers…").color(theme::colours().muted));
                 }
             });
             menu.response
@@ -138,7 +147,7 @@ impl Preferences {
                 keymap = Keymap::default();
             }
             let text = "Click keys to change them; Backspace leaves a command without any.";
-            ui.label(RichText::new(text).small().color(theme::FAINT));
+            ui.label(RichText::new(text).small().color(theme::colours().faint));
         });
         settings.keys = keymap.to_bindings();
     }

@@ -12,7 +12,7 @@ use super::opacity;
 
 pub fn show(ui: &mut Ui, session: &mut Session) {
     let Some((_, frame)) = session.frame().cloned() else {
-        ui.label(egui::RichText::new("No frame yet.").color(theme::FAINT));
+        ui.label(egui::RichText::new("No frame yet.").color(theme::colours().faint));
         return;
     };
     let names = quantity_names(&frame);
@@ -87,11 +87,11 @@ fn survey(ui: &mut Ui, session: &mut Session) {
         return;
     }
     widgets::row(ui, "Known from", |ui| {
-        let text = RichText::new(format!("{seen} of {count} frames")).color(theme::MUTED);
+        let text = RichText::new(format!("{seen} of {count} frames")).color(theme::colours().muted);
         match session.ranges.survey {
             Survey::Running(share) => {
                 let bar = egui::ProgressBar::new(share).desired_width(84.0).desired_height(8.0);
-                ui.add(bar.fill(theme::ACCENT));
+                ui.add(bar.fill(theme::colours().accent));
                 if ui.button("Cancel").clicked() {
                     session.ranges.survey = Survey::Unwanted;
                 }

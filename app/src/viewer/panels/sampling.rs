@@ -43,7 +43,7 @@ impl SamplingPanel {
             bound(ui, &mut sampling.bound);
             if sampling.bound == Bound::Paper && session.view.quantity.opacity.is_some() {
                 let text = "The interval bound knows one field: with another one for the opacity, all is sampled in full.";
-                ui.label(RichText::new(text).small().color(theme::WARNING));
+                ui.label(RichText::new(text).small().color(theme::colours().warning));
             }
             super_pixels(ui, &mut sampling.super_pixels);
             levels(ui, &mut sampling.z_adaptive);

@@ -12,7 +12,7 @@ use super::filters;
 
 pub fn show(ui: &mut Ui, session: &mut Session, handles: &mut bool) {
     let Some(scene) = session.scene_bounds() else {
-        ui.label(RichText::new("No picture yet.").color(theme::FAINT));
+        ui.label(RichText::new("No picture yet.").color(theme::colours().faint));
         return;
     };
     add(ui, session, &scene);

@@ -57,7 +57,7 @@ fn header(ui: &mut Ui, desk: &mut Desk) {
     if let Some((name, _)) = software {
         let text =
             format!("No graphics card is used: {name} makes the pictures on the CPU, in seconds each.");
-        ui.label(RichText::new(text).small().color(theme::WARNING));
+        ui.label(RichText::new(text).small().color(theme::colours().warning));
     }
     ui.add_space(8.0);
 }
@@ -76,7 +76,7 @@ fn open(ui: &mut Ui, actions: &mut Vec<Action>) {
     }
     ui.add_space(2.0);
     let text = "Or drop particle files, a folder or a view.json anywhere on the window.";
-    ui.label(RichText::new(text).small().color(theme::FAINT));
+    ui.label(RichText::new(text).small().color(theme::colours().faint));
     ui.add_space(12.0);
 }
 
@@ -85,7 +85,7 @@ fn last_session(ui: &mut Ui, desk: &Desk, wish: &mut Option<Wish>) {
     title(ui, "Last session");
     if !last.ended {
         let text = "The program did not end properly. What was open is kept:";
-        ui.label(RichText::new(text).small().color(theme::WARNING));
+        ui.label(RichText::new(text).small().color(theme::colours().warning));
     }
     let line =
         entry(ui, &last.title, &format!("frame {}, {}", last.frame, kept::ago(last.when, kept::now())));
@@ -100,7 +100,7 @@ fn recent(ui: &mut Ui, desk: &Desk, wish: &mut Option<Wish>) {
     title(ui, "Recent runs");
     let runs = &desk.keeping.recent.runs;
     if runs.is_empty() {
-        ui.label(RichText::new("Runs that you open are listed here.").small().color(theme::FAINT));
+        ui.label(RichText::new("Runs that you open are listed here.").small().color(theme::colours().faint));
     }
     let height = (ui.available_height() - 40.0).max(60.0);
     ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
@@ -123,7 +123,7 @@ fn recent(ui: &mut Ui, desk: &Desk, wish: &mut Option<Wish>) {
 }
 
 fn title(ui: &mut Ui, text: &str) {
-    ui.label(RichText::new(text).strong().color(theme::ACCENT));
+    ui.label(RichText::new(text).strong().color(theme::colours().accent));
     ui.add_space(2.0);
 }
 
@@ -132,15 +132,19 @@ fn entry(ui: &mut Ui, name: &str, about: &str) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 42.0), egui::Sense::click());
     let response = response.accessible_name(format!("{name}, {about}"));
     if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(rect, 4, theme::RAISED);
+        ui.painter().rect_filled(rect, 4, theme::colours().raised);
     }
     let inside = rect.shrink2(vec2(8.0, 4.0));
     let mut lines =
         ui.new_child(egui::UiBuilder::new().max_rect(inside).layout(Layout::top_down(Align::Min)));
     lines.spacing_mut().item_spacing.y = 0.0;
-    let name = egui::Label::new(RichText::new(name).color(theme::TEXT)).truncate().selectable(false);
+    let name =
+        egui::Label::new(RichText::new(name).color(theme::colours().text)).truncate().selectable(false);
     lines.add(name);
-    lines
-        .add(egui::Label::new(RichText::new(about).small().color(theme::MUTED)).truncate().selectable(false));
+    lines.add(
+        egui::Label::new(RichText::new(about).small().color(theme::colours().muted))
+            .truncate()
+            .selectable(false),
+    );
     response
 }

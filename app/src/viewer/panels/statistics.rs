@@ -10,13 +10,13 @@ use crate::viewer::{theme, widgets};
 pub fn show(ui: &mut Ui, session: &mut Session) {
     session.wants_statistics = true;
     let Some(answer) = &session.statistics else {
-        ui.label(RichText::new("Counting…").color(theme::FAINT));
+        ui.label(RichText::new("Counting…").color(theme::colours().faint));
         return;
     };
     let statistics = match &answer.statistics {
         Ok(statistics) => statistics,
         Err(why) => {
-            ui.label(RichText::new(why.to_string()).small().color(theme::WARNING));
+            ui.label(RichText::new(why.to_string()).small().color(theme::colours().warning));
             return;
         }
     };

@@ -71,7 +71,7 @@ fn follow(ui: &mut Ui, session: &mut Session) {
     }
     let on = session.is_following();
     let button = egui::Button::new("Follow");
-    let button = if on { button.fill(theme::ACCENT_DEEP) } else { button };
+    let button = if on { button.fill(theme::colours().accent_deep) } else { button };
     let response = ui.add(button).accessible_name("Follow the newest").on_hover_text(
         "Shows the newest frame, and every new one as soon as the solver has written it. Ends where you go to \
          another frame",
@@ -87,19 +87,19 @@ fn position(ui: &mut Ui, session: &Session) {
     // Counted from 0, as `--frames` does.
     let last = (session.playback.count() - 1).to_string();
     let text = format!("{index:>width$} / {last}", width = last.len());
-    ui.label(RichText::new(text).font(theme::number_font()).color(theme::TEXT));
+    ui.label(RichText::new(text).font(theme::number_font()).color(theme::colours().text));
     let here = session.frame().filter(|(frame, _)| *frame == index);
     if let Some(time) = here.and_then(|(_, frame)| frame.metadata.time) {
         let text = format!("t = {}", widgets::short(time));
-        ui.label(RichText::new(text).font(theme::number_font()).color(theme::MUTED));
+        ui.label(RichText::new(text).font(theme::number_font()).color(theme::colours().muted));
     }
     if session.trouble().is_some() {
-        ui.label(RichText::new("cannot be read").color(theme::ERROR));
+        ui.label(RichText::new("cannot be read").color(theme::colours().error));
     } else if session.waiting() {
-        ui.label(RichText::new("reading…").color(theme::WARNING));
+        ui.label(RichText::new("reading…").color(theme::colours().warning));
     }
     if let Some(run) = session.run() {
-        let name = RichText::new(run.name(index)).color(theme::MUTED);
+        let name = RichText::new(run.name(index)).color(theme::colours().muted);
         ui.add(egui::Label::new(name).truncate());
     }
 }
@@ -155,7 +155,7 @@ fn track(ui: &mut Ui, session: &mut Session) {
 
 fn paint(ui: &Ui, session: &Session, track: &Track) {
     let painter = ui.painter();
-    painter.rect_filled(track.rect, 3, theme::WELL);
+    painter.rect_filled(track.rect, 3, theme::colours().well);
     let cached = session.run().map(|run| run.stream.cached()).unwrap_or_default();
     // Neighbours of one kind are one shape: a sequence may have many thousand frames.
     let mut first = 0;
@@ -166,9 +166,9 @@ fn paint(ui: &Ui, session: &Session, track: &Track) {
         let mut rect = track.cell(first).union(track.cell(last));
         let colour = match kind {
             Cached::No => Color32::TRANSPARENT,
-            Cached::Loading => Color32::from_rgb(0x27, 0x38, 0x3f),
-            Cached::Yes => Color32::from_rgb(0x33, 0x5f, 0x69),
-            Cached::Failed => theme::ERROR,
+            Cached::Loading => theme::colours().loading,
+            Cached::Yes => theme::colours().cached,
+            Cached::Failed => theme::colours().error,
         };
         if kind == Cached::Failed {
             // Visible, however many frames there are.
@@ -181,12 +181,12 @@ fn paint(ui: &Ui, session: &Session, track: &Track) {
     keyframes(ui, session, track);
     let cell = track.cell(session.playback.index());
     let head = Rect::from_center_size(cell.center(), vec2(cell.width().clamp(4.0, 10.0), 18.0));
-    painter.rect_filled(head, 3, Color32::WHITE);
+    painter.rect_filled(head, 3, theme::colours().strong);
 }
 
 /// Marks of the camera's keyframes; bright while the camera follows them.
 fn keyframes(ui: &Ui, session: &Session, track: &Track) {
-    let colour = if session.follows_path() { theme::WARNING } else { theme::MUTED };
+    let colour = if session.follows_path() { theme::colours().warning } else { theme::colours().muted };
     let shown = session.view.path.keyframes.iter().filter(|key| key.frame < track.count as f64);
     for key in shown {
         let cell = track.cell(key.frame as usize);
@@ -204,7 +204,7 @@ fn ticks(ui: &Ui, track: &Track) {
     }
     for index in 1..track.count {
         let x = track.cell(index).left();
-        let stroke = Stroke::new(1.0, theme::PANEL);
+        let stroke = Stroke::new(1.0, theme::colours().panel);
         ui.painter().line_segment([pos2(x, track.rect.top()), pos2(x, track.rect.bottom())], stroke);
     }
 }

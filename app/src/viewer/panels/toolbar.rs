@@ -101,14 +101,14 @@ fn camera(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Action
 fn gap(ui: &mut Ui) {
     ui.add_space(4.0);
     let (rect, _) = ui.allocate_exact_size(egui::vec2(1.0, 18.0), egui::Sense::hover());
-    ui.painter().rect_filled(rect, 0, theme::LINE);
+    ui.painter().rect_filled(rect, 0, theme::colours().line);
     ui.add_space(4.0);
 }
 
 /// A button; a switch that is on stands out.
 fn ui_button(label: &'static str, on: bool) -> Button<'static> {
     let button = Button::new(label);
-    if on { button.fill(theme::ACCENT_DEEP) } else { button }
+    if on { button.fill(theme::colours().accent_deep) } else { button }
 }
 
 fn call(ui: &mut Ui, button: Button<'_>, action: Action, actions: &mut Vec<Action>) -> Response {

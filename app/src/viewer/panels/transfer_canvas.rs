@@ -97,7 +97,7 @@ pub fn paint(
     plain_counts: bool,
 ) {
     let frame = axes.rect.expand2(egui::vec2(7.0, 7.0));
-    painter.rect_filled(frame, 4, theme::WELL);
+    painter.rect_filled(frame, 4, theme::colours().well);
     histogram(painter, axes, bars, plain_counts);
     grid(painter, axes);
     let Ok(function) = transfer.function() else { return };
@@ -110,7 +110,7 @@ pub fn paint(
         (strip.rect.top(), to_screen([r, g, b]))
     });
     outline(painter, axes, &transfer.points);
-    painter.rect_stroke(strip.rect, 2, Stroke::new(1.0, theme::LINE), StrokeKind::Outside);
+    painter.rect_stroke(strip.rect, 2, Stroke::new(1.0, theme::colours().line), StrokeKind::Outside);
 }
 
 /// The nodes, on top of everything. `marked`: the one that is selected, and the one under the cursor.
@@ -124,7 +124,7 @@ pub fn paint_nodes(
     let ring = |node: Node, small: f32| {
         let [chosen, under] = marked.map(|marked| marked == Some(node));
         let radius = if chosen || under { small + 1.0 } else { small };
-        let ring = if chosen { Color32::WHITE } else { Color32::from_rgb(0xb4, 0xbc, 0xc7) };
+        let ring = if chosen { theme::colours().strong } else { theme::colours().muted };
         (radius, Stroke::new(if chosen { 2.0 } else { 1.3 }, ring))
     };
     for (index, node) in colour_nodes(transfer).unwrap_or_default().into_iter().enumerate() {
@@ -156,22 +156,22 @@ fn histogram(painter: &Painter, axes: &Axes, bars: &[u64], plain: bool) {
         let left = axes.rect.left() + index as f32 * width;
         let corner = pos2(left, axes.rect.bottom() - height);
         let bar = Rect::from_min_max(corner, pos2(left + width, axes.rect.bottom()));
-        mesh.add_colored_rect(bar, Color32::from_rgb(0x2d, 0x33, 0x3c));
+        mesh.add_colored_rect(bar, theme::colours().bar);
     }
     painter.add(Shape::mesh(mesh));
 }
 
 fn grid(painter: &Painter, axes: &Axes) {
     let steps: &[f32] = if axes.log { &[1.0, 0.1, 0.01, 0.001] } else { &[1.0, 0.75, 0.5, 0.25] };
-    let stroke = Stroke::new(1.0, Color32::from_white_alpha(9));
+    let stroke = Stroke::new(1.0, theme::colours().line.gamma_multiply(0.5));
     for &opacity in steps {
         painter.hline(axes.rect.x_range(), axes.y(opacity), stroke);
         let place = pos2(axes.rect.right() - 2.0, axes.y(opacity) + 1.0);
         let font = egui::FontId::monospace(9.5);
         let text = format!("{opacity}");
-        painter.text(place, egui::Align2::RIGHT_TOP, text, font, theme::FAINT);
+        painter.text(place, egui::Align2::RIGHT_TOP, text, font, theme::colours().faint);
     }
-    painter.hline(axes.rect.x_range(), axes.rect.bottom(), Stroke::new(1.0, theme::LINE));
+    painter.hline(axes.rect.x_range(), axes.rect.bottom(), Stroke::new(1.0, theme::colours().line));
 }
 
 /// Columns from the bottom of `rect` up to a height, each in its colour.
@@ -208,7 +208,7 @@ fn outline(painter: &Painter, axes: &Axes, points: &[ControlPoint]) {
         }));
     }
     line.push(pos2(axes.rect.right(), axes.y(last.opacity)));
-    painter.line(line, Stroke::new(1.6, Color32::from_rgb(0xd5, 0xda, 0xe1)));
+    painter.line(line, Stroke::new(1.6, theme::colours().curve));
 }
 
 /// A linear colour as the screen's.

@@ -197,7 +197,7 @@ fn marks(ui: &mut Ui, session: &Session) {
             egui::Align2::LEFT_TOP,
             &mark.label,
             font.clone(),
-            theme::MUTED,
+            theme::colours().muted,
         );
         free = left + wide + 10.0;
     }

@@ -21,7 +21,7 @@ pub fn node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>, fin
     match *selected {
         None => {
             let hint = "Select a node to edit its numbers; double click adds one, right click removes it.";
-            ui.label(RichText::new(hint).small().color(theme::FAINT));
+            ui.label(RichText::new(hint).small().color(theme::colours().faint));
         }
         Some(Node::Opacity(index)) => opacity_node(ui, session, selected, index, fine),
         Some(Node::Colour(index)) => colour_node(ui, session, selected, index),
@@ -82,7 +82,7 @@ fn place(ui: &mut Ui, session: &Session, u: f32) -> Option<f32> {
                 moved = Some(scale.u(range, value).clamp(0.0, 1.0) as f32);
             }
         }
-        ui.label(RichText::new("u").color(theme::MUTED));
+        ui.label(RichText::new("u").color(theme::colours().muted));
         let mut share = u;
         let field = egui::DragValue::new(&mut share).range(0.0..=1.0).speed(0.002).fixed_decimals(3);
         let hint = "The same place as a share of the range: 0 at its low end, 1 at its high one";
@@ -112,7 +112,7 @@ pub fn outside(ui: &mut Ui, session: &mut Session) {
                 *side = on.then_some(OutsideView { rgb: [r, g, b], opacity });
             }
             let Some(OutsideView { rgb, opacity }) = side else {
-                ui.label(RichText::new("as the end").color(theme::FAINT));
+                ui.label(RichText::new("as the end").color(theme::colours().faint));
                 return;
             };
             // The button rounds what it is given.
