@@ -50,5 +50,5 @@ fn shared_data() -> Option<PathBuf> {
 }
 
 fn read_ok(path: &Path) -> Frame {
-    read(path).unwrap_or_else(|error| panic!("{error}"))
+    read(path, &Default::default()).unwrap_or_else(|error| panic!("{error}"))
 }

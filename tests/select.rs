@@ -54,7 +54,8 @@ fn select(seed: u64) -> SelectView {
     let clip_plane =
         ClipPlane { point: 0.3 * random.in_cube(), normal: random.in_cube(), invert: seed % 4 < 2, on: true };
     let filter = |field: &str, range, invert| Filter { field: field.into(), range, invert, on: true };
-    let filters = vec![filter("heat", [0.2, 0.9], seed % 2 == 0), filter("VEL.x", [-0.8, 2.0], false)];
+    let filters =
+        vec![filter("heat", [0.2, 0.9], seed.is_multiple_of(2)), filter("VEL.x", [-0.8, 2.0], false)];
     SelectView { clip_box: Some(clip_box), clip_plane: Some(clip_plane), filters }
 }
 

@@ -22,7 +22,7 @@ fn read_damaged(folder: &Path, name: &str, bytes: &[u8]) -> Result<Frame, ReadEr
     let path = folder.join(name);
     std::fs::write(&path, bytes).unwrap();
     let begin = Instant::now();
-    let (result, allocated) = peak(|| read(&path));
+    let (result, allocated) = peak(|| read(&path, &Default::default()));
     let limit = 64 * bytes.len() + (64 << 20);
     assert!(begin.elapsed() < SLOWEST, "{name}: {:?}", begin.elapsed());
     assert!(allocated < limit, "{name}: {allocated} bytes allocated for {}", bytes.len());
@@ -193,7 +193,7 @@ fn swollen_files_stay_small() {
 fn what_is_no_particle_file_is_named() {
     let _turn = alone();
     let folder = tempfile::tempdir().unwrap();
-    let error = |path: PathBuf| read(&path).unwrap_err().to_string();
+    let error = |path: PathBuf| read(&path, &Default::default()).unwrap_err().to_string();
     assert!(error(folder.path().to_owned()).contains("not a file"));
     assert!(error(folder.path().join("absent.csv")).contains("absent.csv: cannot be read"));
     std::fs::write(folder.path().join("a.png"), b"\x89PNG").unwrap();

@@ -61,7 +61,8 @@ fn broken_files_say_what_and_where() {
     let _turn = crate::metered::together();
     let Some(data) = shared_data() else { return };
     for (name, words) in ERRORS {
-        let error = read(&data.join("broken").join(name)).err().map(|error| error.to_string());
+        let error =
+            read(&data.join("broken").join(name), &Default::default()).err().map(|error| error.to_string());
         let error = error.unwrap_or_else(|| panic!("{name} was read"));
         assert!(error.contains(name), "{error}");
         for word in words {
