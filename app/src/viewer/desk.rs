@@ -7,23 +7,18 @@ mod functions;
 mod keeping;
 mod looking;
 mod measuring;
+mod news;
 mod surveying;
 
-use std::path::PathBuf;
 use std::sync::mpsc;
 use std::time::Instant;
 
 use egui::Ui;
-use renderer::{GpuOptions, View};
+use renderer::GpuOptions;
 use winit::window::Window;
 
-use crate::frames::Sequence;
-
-use super::analysis::Analysis;
-use super::dialogs::{self, Dialogs, Purpose};
+use super::dialogs::{Dialogs, Purpose};
 use super::export::Export;
-use super::field_ranges::FieldRanges;
-use super::kept::LastSession;
 use super::measurement::Measurement;
 use super::panels::hud::Hud;
 use super::panels::inspector::Inspector;
@@ -31,43 +26,18 @@ use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
 use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
-use super::picked::Located;
 use super::picture_view::PictureView;
-use super::pointing::Pointed;
-use super::render_thread::{RenderThread, Report};
+use super::render_thread::RenderThread;
 use super::session::{Session, Tool};
 use super::shortcuts::Action;
-use super::statistics::Answer;
 use super::survey::Found;
-use super::task::{Outcome, Task};
+use super::task::Task;
 use super::widgets::Areas;
 use super::{Options, Wake};
 
 use exporting::Exporting;
 use keeping::Keeping;
-
-/// What was done on another thread.
-enum Done {
-    Found(Opening, Result<Sequence, String>),
-    ViewRead(PathBuf, anyhow::Result<Box<View>>),
-    ViewSaved(PathBuf, anyhow::Result<()>),
-    Counted(Analysis),
-    Function(functions::Filed),
-    Ranged(FieldRanges),
-    Pointed(Box<Pointed>),
-    Located(Located),
-    Statistics(Box<Answer>),
-    Kept(&'static str, anyhow::Result<()>),
-    Adapters(Vec<String>),
-    VideosPossible(bool),
-}
-
-/// A run that is looked for.
-struct Opening {
-    paths: Vec<PathBuf>,
-    /// How it is to look; as its first frame does without any.
-    session: Option<Box<LastSession>>,
-}
+use news::{Done, Opening};
 
 /// What only the window can do.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -291,88 +261,6 @@ impl Desk {
         }
     }
 
-    fn take_reports(&mut self) {
-        for report in self.render.reports() {
-            self.session.note(&report);
-            if let Report::Picture(shown) = report {
-                self.picture.layers.set(*shown);
-            }
-        }
-    }
-
-    fn take_done(&mut self) {
-        while let Ok(done) = self.done.1.try_recv() {
-            match done {
-                Done::Found(opening, Ok(sequence)) => {
-                    self.finding = false;
-                    self.open(&sequence, &opening.paths);
-                    if let Some(last) = opening.session {
-                        self.session.adopt(last.view);
-                        self.session.jump(last.frame);
-                    }
-                }
-                Done::Found(_, Err(text)) => {
-                    self.finding = false;
-                    self.session.complain(text);
-                }
-                Done::ViewRead(path, Ok(view)) => {
-                    self.session.adopt(*view);
-                    self.session.messages.note(format!("View loaded from {}", path.display()));
-                    self.session.log(format!("loaded {}", path.display()));
-                }
-                Done::ViewSaved(path, Ok(())) => {
-                    self.session.messages.note(format!("View saved as {}", path.display()));
-                    self.session.log(format!("saved {}", path.display()));
-                }
-                Done::ViewRead(_, Err(error)) | Done::ViewSaved(_, Err(error)) => {
-                    self.session.complain(format!("{error:#}"));
-                }
-                Done::Function(filed) => self.take_function(filed),
-                Done::Counted(analysis) => {
-                    self.counting = false;
-                    self.session.answer(analysis);
-                }
-                Done::Ranged(ranges) => self.take_field_ranges(ranges),
-                Done::Kept(file, result) => self.written(file, result),
-                Done::VideosPossible(possible) => self.exporting.videos_possible(possible),
-                Done::Adapters(names) => {
-                    if let Some(preferences) = &mut self.preferences {
-                        preferences.adapters = Some(names);
-                    }
-                }
-                Done::Pointed(pointed) => self.take_pointed(*pointed),
-                Done::Located(located) => self.take_located(located),
-                Done::Statistics(answer) => self.take_statistics(*answer),
-            }
-        }
-    }
-
-    fn take_outcomes(&mut self) {
-        match self.dialogs.poll() {
-            Some(dialogs::Outcome::Chosen(purpose, paths)) => self.chosen(purpose, paths),
-            Some(dialogs::Outcome::Unavailable) => self.session.complain(
-                "No file dialog could be opened: install xdg-desktop-portal or zenity, drop files on the \
-                 window, name them on the command line, or save with Ctrl+Shift+E",
-            ),
-            Some(dialogs::Outcome::Dismissed) => self.session.log("dialog closed"),
-            None => {}
-        }
-        let session = &mut self.session;
-        self.exports.retain(|export| {
-            let Some(outcome) = export.task.poll() else { return true };
-            let path = export.path.display();
-            match outcome {
-                Outcome::Done(()) => {
-                    session.messages.note(format!("Picture saved as {path}"));
-                    session.log(format!("saved {path}"));
-                }
-                Outcome::Cancelled => session.messages.note(format!("{path} was not saved")),
-                Outcome::Failed(text) => session.complain(text),
-            }
-            false
-        });
-    }
-
     /// Counts values for the histogram, one frame at a time.
     fn count(&mut self) {
         if self.counting {
@@ -387,15 +275,6 @@ impl Desk {
     fn open_preferences(&mut self) {
         self.preferences = Some(Preferences::default());
         self.work(|| Done::Adapters(renderer::Gpu::adapters()));
-    }
-
-    fn work(&self, task: impl FnOnce() -> Done + Send + 'static) {
-        let (sender, wake) = (self.done.0.clone(), Wake::clone(&self.wake));
-        std::thread::spawn(move || {
-            // The window is gone when nobody listens.
-            let _ = sender.send(task());
-            wake();
-        });
     }
 
     /// Closes what a tool has opened, and then puts the tool away.

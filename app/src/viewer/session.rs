@@ -7,6 +7,7 @@ mod live;
 mod looking;
 mod picture;
 mod range;
+mod reading;
 mod space;
 mod wish;
 
@@ -34,6 +35,7 @@ use history::History;
 pub use looking::{Looking, Tool};
 pub use picture::PictureFacts;
 pub use range::{RangeSource, Ranges, Survey};
+use reading::GLANCE;
 
 pub struct Session {
     run: Option<Run>,
@@ -94,11 +96,6 @@ pub struct Session {
 
 /// How long after the last change the picture counts as moving.
 const SETTLE: Duration = Duration::from_millis(200);
-
-/// Bytes of a file that nobody waits for without being told how long.
-const LARGE_FILE: u64 = 64 << 20;
-/// How often its progress is looked at.
-const GLANCE: Duration = Duration::from_millis(100);
 
 impl Session {
     pub fn new(view: View) -> Session {
@@ -213,25 +210,6 @@ impl Session {
         self.run.is_some() && !here && self.trouble().is_none()
     }
 
-    /// Whether the first picture of the frame in view is still to come.
-    pub fn awaits_picture(&self) -> bool {
-        let failed = |(index, _): &(usize, Arc<Frame>)| self.without_picture == Some(*index);
-        self.picture.is_none() && self.frame.as_ref().is_some_and(|frame| !failed(frame))
-    }
-
-    /// Bytes read of the frame at the playhead and bytes in all, while one that takes a while is read.
-    pub fn reading(&self) -> Option<[u64; 2]> {
-        let large = |bytes: &[u64; 2]| bytes[1] >= LARGE_FILE;
-        self.run.as_ref()?.stream.progress(self.playback.index()).filter(large)
-    }
-
-    /// Gives up reading the frame at the playhead.
-    pub fn cancel_reading(&mut self) {
-        if let Some(run) = &self.run {
-            run.stream.cancel(self.playback.index());
-        }
-    }
-
     /// Says that something moves, so that the next pictures must be quick.
     pub fn touch(&mut self, now: Instant) {
         self.moving_until = Some(now + SETTLE);
@@ -250,13 +228,6 @@ impl Session {
         let moved = self.playback.step(forwards, |index| !told.contains(&index));
         self.request();
         moved
-    }
-
-    /// Keeps no more than `bytes` of frames beside the one in view.
-    pub fn limit_frames(&self, bytes: usize) {
-        if let Some(run) = &self.run {
-            run.stream.limit(bytes);
-        }
     }
 
     pub fn toggle_playing(&mut self) {

@@ -1,0 +1,135 @@
+//! What threads and dialogs have to tell.
+
+use std::path::PathBuf;
+
+use renderer::View;
+
+use super::Desk;
+use super::functions;
+use crate::frames::Sequence;
+use crate::viewer::Wake;
+use crate::viewer::analysis::Analysis;
+use crate::viewer::dialogs;
+use crate::viewer::field_ranges::FieldRanges;
+use crate::viewer::kept::LastSession;
+use crate::viewer::picked::Located;
+use crate::viewer::pointing::Pointed;
+use crate::viewer::render_thread::Report;
+use crate::viewer::statistics::Answer;
+use crate::viewer::task::Outcome;
+
+/// What was done on another thread.
+pub(super) enum Done {
+    Found(Opening, Result<Sequence, String>),
+    ViewRead(PathBuf, anyhow::Result<Box<View>>),
+    ViewSaved(PathBuf, anyhow::Result<()>),
+    Counted(Analysis),
+    Function(functions::Filed),
+    Ranged(FieldRanges),
+    Pointed(Box<Pointed>),
+    Located(Located),
+    Statistics(Box<Answer>),
+    Kept(&'static str, anyhow::Result<()>),
+    Adapters(Vec<String>),
+    VideosPossible(bool),
+}
+
+/// A run that is looked for.
+pub(super) struct Opening {
+    pub paths: Vec<PathBuf>,
+    /// How it is to look; as its first frame does without any.
+    pub session: Option<Box<LastSession>>,
+}
+
+impl Desk {
+    pub(super) fn take_reports(&mut self) {
+        for report in self.render.reports() {
+            self.session.note(&report);
+            if let Report::Picture(shown) = report {
+                self.picture.layers.set(*shown);
+            }
+        }
+    }
+
+    pub(super) fn take_done(&mut self) {
+        while let Ok(done) = self.done.1.try_recv() {
+            match done {
+                Done::Found(opening, Ok(sequence)) => {
+                    self.finding = false;
+                    self.open(&sequence, &opening.paths);
+                    if let Some(last) = opening.session {
+                        self.session.adopt(last.view);
+                        self.session.jump(last.frame);
+                    }
+                }
+                Done::Found(_, Err(text)) => {
+                    self.finding = false;
+                    self.session.complain(text);
+                }
+                Done::ViewRead(path, Ok(view)) => {
+                    self.session.adopt(*view);
+                    self.session.messages.note(format!("View loaded from {}", path.display()));
+                    self.session.log(format!("loaded {}", path.display()));
+                }
+                Done::ViewSaved(path, Ok(())) => {
+                    self.session.messages.note(format!("View saved as {}", path.display()));
+                    self.session.log(format!("saved {}", path.display()));
+                }
+                Done::ViewRead(_, Err(error)) | Done::ViewSaved(_, Err(error)) => {
+                    self.session.complain(format!("{error:#}"));
+                }
+                Done::Function(filed) => self.take_function(filed),
+                Done::Counted(analysis) => {
+                    self.counting = false;
+                    self.session.answer(analysis);
+                }
+                Done::Ranged(ranges) => self.take_field_ranges(ranges),
+                Done::Kept(file, result) => self.written(file, result),
+                Done::VideosPossible(possible) => self.exporting.videos_possible(possible),
+                Done::Adapters(names) => {
+                    if let Some(preferences) = &mut self.preferences {
+                        preferences.adapters = Some(names);
+                    }
+                }
+                Done::Pointed(pointed) => self.take_pointed(*pointed),
+                Done::Located(located) => self.take_located(located),
+                Done::Statistics(answer) => self.take_statistics(*answer),
+            }
+        }
+    }
+
+    pub(super) fn take_outcomes(&mut self) {
+        match self.dialogs.poll() {
+            Some(dialogs::Outcome::Chosen(purpose, paths)) => self.chosen(purpose, paths),
+            Some(dialogs::Outcome::Unavailable) => self.session.complain(
+                "No file dialog could be opened: install xdg-desktop-portal or zenity, drop files on the \
+                 window, name them on the command line, or save with Ctrl+Shift+E",
+            ),
+            Some(dialogs::Outcome::Dismissed) => self.session.log("dialog closed"),
+            None => {}
+        }
+        let session = &mut self.session;
+        self.exports.retain(|export| {
+            let Some(outcome) = export.task.poll() else { return true };
+            let path = export.path.display();
+            match outcome {
+                Outcome::Done(()) => {
+                    session.messages.note(format!("Picture saved as {path}"));
+                    session.log(format!("saved {path}"));
+                }
+                Outcome::Cancelled => session.messages.note(format!("{path} was not saved")),
+                Outcome::Failed(text) => session.complain(text),
+            }
+            false
+        });
+    }
+
+    pub(super) fn work(&self, task: impl FnOnce() -> Done + Send + 'static) {
+        let (sender, wake) = (self.done.0.clone(), Wake::clone(&self.wake));
+        std::thread::spawn(move || {
+            // The window is gone when nobody listens.
+            let _ = sender.send(task());
+            wake();
+        });
+    }
+}
