@@ -135,6 +135,11 @@ impl Film {
         view
     }
 
+    /// Frames of the whole run, where the camera goes by how many there are.
+    pub fn camera_frames(&self) -> Option<usize> {
+        (!self.view.path.is_empty()).then_some(self.run.frames)
+    }
+
     pub fn interrupted(&self) -> bool {
         self.listener.wants_end()
     }

@@ -96,8 +96,9 @@ impl Pictures {
     /// Renders and writes the picture of one frame.
     pub fn make(&mut self, film: &Film, index: usize) -> anyhow::Result<Made> {
         let number = film.number(index);
-        let record =
-            record::of(&film.common_view(), film.source(index), number, &Layer::channels(&self.layers));
+        let channels = Layer::channels(&self.layers);
+        let frames = film.camera_frames();
+        let record = record::of(&film.common_view(), film.source(index), number, frames, &channels);
         if self.resumes && self.is_there(number, &record) {
             self.stats.iter_mut().for_each(|stats| stats.keep(number));
             return Ok(Made::Kept);

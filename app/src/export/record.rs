@@ -10,9 +10,11 @@ use crate::frames::Source;
 
 /// The record of the picture that `view` makes of `source`, frame `number` of its run: ASCII on one line.
 ///
+/// `frames` are those of the whole run, where the camera goes by how many there are.
+///
 /// A file counts as the same while its name, size and time of change are; its folder may be another one,
 /// as it is on another computer of a cluster. Numbers are those of `view.json`, so every setting counts.
-pub fn of(view: &View, source: &Source, number: usize, channels: &[&str]) -> String {
+pub fn of(view: &View, source: &Source, number: usize, frames: Option<usize>, channels: &[&str]) -> String {
     let file = source.path().and_then(|path| path.metadata().ok());
     let changed = file.as_ref().and_then(|file| file.modified().ok()?.duration_since(UNIX_EPOCH).ok());
     let name = source.path().and_then(|path| path.file_name());
@@ -25,6 +27,7 @@ pub fn of(view: &View, source: &Source, number: usize, channels: &[&str]) -> Str
             "bytes": file.map(|file| file.len()),
             "changed": changed.map(|time| time.as_nanos() as u64),
         },
+        "frames": frames,
         "channels": channels,
         "view": serde_json::to_value(view).unwrap_or(Value::Null),
     });
@@ -57,7 +60,7 @@ mod tests {
         let mut coarser = view.clone();
         coarser.sampling.tolerance = Some(0.005);
         let here = source("x,y,z\n0,0,0\n");
-        let first = of(&view, &here, 0, &[]);
+        let first = of(&view, &here, 0, None, &[]);
         assert!(first.is_ascii() && serde_json::from_str::<Value>(&first).unwrap()["frame"]["bytes"] == 12);
         let elsewhere = tempfile::tempdir().unwrap();
         let copy = elsewhere.path().join("fläche_1.csv");
@@ -65,12 +68,13 @@ mod tests {
         let changed = path.metadata().unwrap().modified().unwrap();
         std::fs::File::options().write(true).open(&copy).unwrap().set_modified(changed).unwrap();
         let there = Sequence::open(&[copy]).unwrap().sources()[0].clone();
-        assert_eq!(first, of(&view, &there, 0, &[]), "a copy in another folder");
+        assert_eq!(first, of(&view, &there, 0, None, &[]), "a copy in another folder");
         for other in [
-            of(&coarser, &here, 0, &[]),
-            of(&view, &here, 1, &[]),
-            of(&view, &here, 0, &["predicted_error"]),
-            of(&view, &source("x,y,z\n0,0,0\n1,1,1\n"), 0, &[]),
+            of(&coarser, &here, 0, None, &[]),
+            of(&view, &here, 0, Some(7), &[]),
+            of(&view, &here, 1, None, &[]),
+            of(&view, &here, 0, None, &["predicted_error"]),
+            of(&view, &source("x,y,z\n0,0,0\n1,1,1\n"), 0, None, &[]),
         ] {
             assert_ne!(first, other);
         }

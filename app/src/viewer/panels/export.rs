@@ -117,7 +117,7 @@ impl ExportForm {
         let last_frame = sequence.len().checked_sub(1)?;
         let here = session.playback.index();
         let [first, last] = if self.kind == Kind::Picture { [here; 2] } else { [self.first, self.last] };
-        let mut view = session.complete_view();
+        let mut view = session.saved_view();
         [view.image.width, view.image.height] = self.size;
         let path = self.path();
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
