@@ -13,6 +13,8 @@ mod files;
 mod harness;
 #[path = "window/journeys.rs"]
 mod journeys;
+#[path = "window/readme.rs"]
+mod readme;
 #[path = "window/sampling.rs"]
 mod sampling;
 #[path = "window/sessions.rs"]

@@ -109,6 +109,13 @@ impl Window {
         window
     }
 
+    /// Gives the window another size, in pixels.
+    pub fn resize(&mut self, size: [u16; 2]) {
+        let [width, height] = size.map(|side| side.to_string());
+        self.tool(&["windowsize", "--sync", &self.number.to_string(), &width, &height]);
+        self.wait_for("area picture");
+    }
+
     /// The other programs of its desktop.
     pub fn desktop(&self) -> Desktop {
         Desktop::new(&self.display, self.number)

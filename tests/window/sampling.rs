@@ -10,6 +10,8 @@ fn a_tolerance_is_set_and_its_error_measured() {
     }
     let folder = tempfile::tempdir().unwrap();
     let mut window = Window::open(folder.path(), &["demo", "--size", "120x90"]);
+    // High enough for the whole section.
+    window.resize([900, 800]);
     window.wait_for_full_picture();
     // The sections above it are folded away, so that all of it is in view.
     window.fold(&["Quantity", "Transfer function"]);

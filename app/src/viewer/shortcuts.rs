@@ -166,14 +166,23 @@ pub fn pressed(context: &egui::Context) -> Vec<Action> {
         return Vec::new();
     }
     let bindings = Keymap::of(context).bindings();
+    let called = |event: &egui::Event| match event {
+        egui::Event::Key { key, modifiers, pressed: true, .. } => bindings
+            .iter()
+            .find(|(keys, _)| keys.logical_key == *key && modifiers.matches_logically(keys.modifiers)),
+        _ => None,
+    };
+    // In the order in which they were pressed: several may come in one frame of a busy window.
     context.input_mut(|input| {
-        bindings
-            .into_iter()
-            .flat_map(|(keys, action)| {
-                let times = input.count_and_consume_key(keys.modifiers, keys.logical_key);
-                std::iter::repeat_n(action, times)
-            })
-            .collect()
+        let mut actions = Vec::new();
+        input.events.retain(|event| match called(event) {
+            Some((_, action)) => {
+                actions.push(*action);
+                false
+            }
+            None => true,
+        });
+        actions
     })
 }
 

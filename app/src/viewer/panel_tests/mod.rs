@@ -21,6 +21,7 @@ mod quantity;
 mod sampling;
 mod saved;
 mod selection;
+mod shortcuts;
 mod snapshots;
 mod statistics;
 mod timeline;
