@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::texts;
 use crate::viewer::panels::help;
-use crate::viewer::shortcuts::{GESTURES, SHORTCUTS};
+use crate::viewer::shortcuts::{Action, GESTURES, SHORTCUTS};
 use crate::viewer::theme;
 
 fn opened() -> Harness<'static, bool> {
@@ -25,11 +25,16 @@ fn opened() -> Harness<'static, bool> {
 fn every_shortcut_and_gesture_is_told() {
     let harness = opened();
     let written: HashSet<String> = texts(&harness).into_iter().collect();
-    let meanings = SHORTCUTS.iter().map(|shortcut| shortcut.meaning).filter(|meaning| !meaning.is_empty());
+    // One line for each series of keys.
+    let alone = |action: &Action| !matches!(action, Action::Look(_) | Action::GoTo(_));
+    let told = SHORTCUTS.iter().filter(|shortcut| shortcut.keys.is_some() && alone(&shortcut.action));
+    let meanings = told.map(|shortcut| shortcut.meaning).filter(|meaning| !meaning.is_empty());
     for text in meanings.chain(GESTURES.iter().map(|(_, meaning)| *meaning)) {
         assert!(written.contains(text), "`{text}` is missing");
     }
-    assert!(written.contains("Ctrl+Shift+O"));
+    for keys in ["Ctrl+Shift+O", "1 … 6", "Ctrl+1 … Ctrl+9"] {
+        assert!(written.contains(keys), "{keys}");
+    }
 }
 
 #[test]

@@ -1,12 +1,13 @@
-//! The list of shortcuts and gestures.
+//! The list of shortcuts and gestures. Commands without keys are in the palette alone.
 
 use egui::{Align2, RichText, Ui, vec2};
 
-use crate::viewer::shortcuts::{GESTURES, SHORTCUTS, Shortcut, keys};
+use crate::viewer::orbit_camera::Side;
+use crate::viewer::shortcuts::{Action, GESTURES, SHORTCUTS, Shortcut, keys};
 use crate::viewer::theme;
 
 /// Column of the keys, in points.
-const KEYS_WIDTH: f32 = 156.0;
+const KEYS_WIDTH: f32 = 164.0;
 
 pub fn show(ui: &Ui, open: &mut bool) {
     if !*open {
@@ -14,7 +15,7 @@ pub fn show(ui: &Ui, open: &mut bool) {
     }
     let frame = egui::Frame::window(ui.style()).inner_margin(24);
     let response = egui::Modal::new(egui::Id::unique("help")).frame(frame).show(ui.ctx(), |ui| {
-        ui.set_width(760.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+        ui.set_width(940.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         ui.label(RichText::new("Keyboard and mouse").heading().strong());
         ui.add_space(8.0);
         let height = ui.ctx().content_rect().height() - 190.0;
@@ -52,8 +53,22 @@ fn group(ui: &mut Ui, name: &str) {
     ui.spacing_mut().item_spacing.y = 2.0;
     title(ui, name);
     let here = |shortcut: &&Shortcut| shortcut.group == name && !shortcut.meaning.is_empty();
-    for shortcut in SHORTCUTS.iter().filter(here) {
-        line(ui, &keys(ui.ctx(), shortcut.action), shortcut.meaning);
+    for Shortcut { action, meaning, .. } in SHORTCUTS.iter().filter(here) {
+        let keys = |action: Action| keys(ui.ctx(), action);
+        let series = |first, last| format!("{} … {}", keys(first), keys(last));
+        match *action {
+            Action::Look(Side::PosX) => {
+                let all = series(Action::Look(Side::PosX), Action::Look(Side::NegZ));
+                line(ui, &all, "Look from +X, −X, +Y, −Y, +Z, −Z");
+            }
+            Action::GoTo(1) => {
+                let all = series(Action::GoTo(1), Action::GoTo(9));
+                line(ui, &all, "Go to a bookmark");
+            }
+            Action::Look(_) | Action::GoTo(_) => {}
+            action if keys(action).is_empty() => {}
+            action => line(ui, &keys(action), meaning),
+        }
     }
     ui.add_space(10.0);
 }
