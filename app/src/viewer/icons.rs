@@ -53,18 +53,6 @@ fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
         let points = vec![at(x, -5.5), at(x + to, 0.0), at(x, 5.5)];
         painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
     };
-    // An arrow that comes round from below; its head points to the left for −1, to the right for 1.
-    let turn_back = |side: f32| {
-        let stroke = Stroke::new(1.4, colour);
-        let arc = (0..=12).map(|part| {
-            let (sin, cos) = (std::f32::consts::PI * part as f32 / 12.0).sin_cos();
-            at(-side * (1.5 + 3.5 * sin), 1.0 - 3.5 * cos)
-        });
-        let ends = [at(side * 1.5, -2.5), at(side * 2.5, 4.5)];
-        painter.line([ends[0]].into_iter().chain(arc).chain([ends[1]]).collect(), stroke);
-        let head = vec![at(side * 1.5, -5.7), at(side * 6.0, -2.5), at(side * 1.5, 0.7)];
-        painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
-    };
     match icon {
         Icon::Play => triangle(-3.5, 9.0),
         Icon::Pause => {
@@ -101,8 +89,8 @@ fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
             painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke);
         }
-        Icon::Undo => turn_back(-1.0),
-        Icon::Redo => turn_back(1.0),
+        Icon::Undo => turn_back(painter, centre, -1.0, colour),
+        Icon::Redo => turn_back(painter, centre, 1.0, colour),
         Icon::Reverse => {
             for (y, side) in [(-3.0, 1.0), (3.0, -1.0)] {
                 painter.line_segment([at(-side * 6.0, y), at(side * 3.0, y)], Stroke::new(1.4, colour));
@@ -111,4 +99,17 @@ fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {
             }
         }
     }
+}
+
+/// An arrow that comes round from below; its head points to the left for −1, to the right for 1.
+fn turn_back(painter: &Painter, centre: Pos2, side: f32, colour: Color32) {
+    let at = |x: f32, y: f32| centre + vec2(side * x, y);
+    let arc = (0..=12).map(|part| {
+        let (sin, cos) = (std::f32::consts::PI * part as f32 / 12.0).sin_cos();
+        at(-1.5 - 3.5 * sin, 1.0 - 3.5 * cos)
+    });
+    let line = [at(1.5, -2.5)].into_iter().chain(arc).chain([at(2.5, 4.5)]).collect();
+    painter.line(line, Stroke::new(1.4, colour));
+    let head = vec![at(1.5, -5.7), at(6.0, -2.5), at(1.5, 0.7)];
+    painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
 }

@@ -26,6 +26,23 @@ impl Areas {
     }
 }
 
+/// A card over the picture that can be dragged; screen readers call it `name`, scripts `area`.
+pub fn card(
+    ui: &Ui,
+    [name, area]: [&'static str; 2],
+    corner: egui::Pos2,
+    width: f32,
+    contents: impl FnOnce(&mut Ui),
+) {
+    let window = egui::Window::new(name).id(egui::Id::unique(area)).default_pos(corner);
+    let window = window.constrain_to(ui.ctx().content_rect()).title_bar(false).resizable(false);
+    window.frame(egui::Frame::window(ui.style())).show(ui.ctx(), |ui| {
+        ui.set_width(width);
+        contents(ui);
+        Areas::mark(ui, area, ui.min_rect());
+    });
+}
+
 /// A titled part of the side panel that folds away.
 pub fn section(ui: &mut Ui, title: &'static str, open: bool, contents: impl FnOnce(&mut Ui)) {
     let id = ui.make_persistent_id(("section", title));

@@ -5,7 +5,7 @@ use egui::{Align, Layout, Rect, RichText, Ui, vec2};
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::session::{Session, Tool};
 use crate::viewer::theme;
-use crate::viewer::widgets::{self, Areas};
+use crate::viewer::widgets;
 
 const WIDTH: f32 = 220.0;
 
@@ -15,18 +15,7 @@ pub fn show(ui: &Ui, session: &mut Session, picture: Rect) {
         return;
     }
     let corner = picture.right_top() + vec2(-WIDTH - 44.0, 16.0);
-    egui::Window::new("Distance")
-        .id(egui::Id::unique("distance"))
-        .default_pos(corner)
-        .constrain_to(ui.ctx().content_rect())
-        .title_bar(false)
-        .resizable(false)
-        .frame(egui::Frame::window(ui.style()).inner_margin(14))
-        .show(ui.ctx(), |ui| {
-            ui.set_width(WIDTH);
-            card(ui, session);
-            Areas::mark(ui, "distance", ui.min_rect());
-        });
+    widgets::card(ui, ["Distance", "distance"], corner, WIDTH, |ui| card(ui, session));
 }
 
 /// What is on the card.

@@ -7,7 +7,7 @@ use crate::viewer::icons::{self, Icon};
 use crate::viewer::probe::Probed;
 use crate::viewer::session::Session;
 use crate::viewer::theme;
-use crate::viewer::widgets::{self, Areas};
+use crate::viewer::widgets;
 
 use super::sampling::plain;
 use super::{inspector_plot, inspector_table};
@@ -34,20 +34,10 @@ impl Inspector {
         let scale = ui.ctx().pixels_per_point();
         let place = picture.min + vec2(x as f32, y as f32) / scale;
         let mut open = true;
-        let frame = egui::Frame::window(ui.style()).inner_margin(MARGIN);
-        egui::Window::new("Inspector")
-            .id(egui::Id::unique("inspector"))
-            .default_pos(corner(place, picture))
-            .constrain_to(ui.ctx().content_rect())
-            .title_bar(false)
-            .resizable(false)
-            .frame(frame)
-            .show(ui.ctx(), |ui| {
-                ui.set_width(WIDTH);
-                open = header(ui, [x, y]);
-                self.contents(ui, session);
-                Areas::mark(ui, "inspector", ui.min_rect());
-            });
+        widgets::card(ui, ["Inspector", "inspector"], corner(place, picture), WIDTH, |ui| {
+            open = header(ui, [x, y]);
+            self.contents(ui, session);
+        });
         if !open {
             session.probe = None;
         }

@@ -6,7 +6,7 @@ use crate::viewer::icons::{self, Icon};
 use crate::viewer::picked::{Mark, Picked};
 use crate::viewer::session::Session;
 use crate::viewer::theme;
-use crate::viewer::widgets::{self, Areas};
+use crate::viewer::widgets;
 
 const WIDTH: f32 = 268.0;
 /// From the edges of the picture, and from its right edge.
@@ -20,18 +20,8 @@ pub fn show(ui: &Ui, session: &mut Session, picture: Rect) {
     if session.looking.picked.is_none() {
         return;
     }
-    egui::Window::new("Picked particle")
-        .id(egui::Id::unique("picked"))
-        .default_pos(corner(session, picture))
-        .constrain_to(ui.ctx().content_rect())
-        .title_bar(false)
-        .resizable(false)
-        .frame(egui::Frame::window(ui.style()).inner_margin(14))
-        .show(ui.ctx(), |ui| {
-            ui.set_width(WIDTH);
-            card(ui, session);
-            Areas::mark(ui, "picked", ui.min_rect());
-        });
+    let at = corner(session, picture);
+    widgets::card(ui, ["Picked particle", "picked"], at, WIDTH, |ui| card(ui, session));
 }
 
 /// Where the card opens: on the side of the picture where the particle is not.

@@ -30,17 +30,20 @@ fn worker() -> Option<(Worker, Arc<Frame>, mpsc::Receiver<Report>)> {
     Some((worker, frame, reports))
 }
 
+/// All pictures that `job` makes.
+fn pictures_of(worker: &mut Worker, reports: &mpsc::Receiver<Report>, job: &Job) -> Vec<Shown> {
+    assert!(worker.serve(job).is_ok());
+    let shown = |report| match report {
+        Report::Picture(shown) => Some(*shown),
+        _ => None,
+    };
+    reports.try_iter().filter_map(shown).collect()
+}
+
 #[test]
 fn another_tolerance_is_drawn_on_the_same_grid() {
     let Some((mut worker, frame, reports)) = worker() else { return };
-    let mut pictures = |job: &Job| {
-        assert!(worker.serve(job).is_ok());
-        let shown = |report| match report {
-            Report::Picture(shown) => Some(shown),
-            _ => None,
-        };
-        reports.try_iter().filter_map(shown).collect::<Vec<Box<Shown>>>()
-    };
+    let mut pictures = |job: &Job| pictures_of(&mut worker, &reports, job);
     let mut job = job(&frame, 24);
     let first = pictures(&job);
     assert!(first.iter().all(|shown| shown.stats.milliseconds.grid > 0.0));
@@ -123,14 +126,7 @@ fn a_look_into_the_picture_costs_no_other_picture() {
 #[test]
 fn a_moving_picture_that_is_late_has_a_larger_tolerance_and_one_at_rest_the_users() {
     let Some((mut worker, frame, reports)) = worker() else { return };
-    let mut draw = |job: &Job| {
-        assert!(worker.serve(job).is_ok());
-        let shown = |report| match report {
-            Report::Picture(shown) => Some(shown),
-            _ => None,
-        };
-        reports.try_iter().filter_map(shown).collect::<Vec<Box<Shown>>>()
-    };
+    let mut draw = |job: &Job| pictures_of(&mut worker, &reports, job);
     let mut job = job(&frame, 24);
     job.moving = true;
     job.budget = Budget { on: true, milliseconds: 1e-6, most: 0.05 };
