@@ -19,21 +19,21 @@ use winit::window::Window;
 
 use super::dialogs::{Dialogs, Purpose};
 use super::export::Export;
-use super::measurement::Measurement;
 use super::panels::hud::Hud;
 use super::panels::inspector::Inspector;
 use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
 use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
-use super::picture_view::PictureView;
 use super::render_thread::RenderThread;
 use super::session::{Session, Tool};
-use super::shortcuts::Action;
-use super::survey::Found;
 use super::task::Task;
 use super::widgets::Areas;
 use super::{Options, Wake};
+use crate::viewer::analysis::survey::Found;
+use crate::viewer::inspect::measurement::Measurement;
+use crate::viewer::keys::shortcuts::Action;
+use crate::viewer::picture::picture_view::PictureView;
 
 use exporting::Exporting;
 use keeping::Keeping;
@@ -153,7 +153,8 @@ impl Desk {
         super::theme::choose(ui.ctx(), self.keeping.settings.appearance);
         // These take keys for themselves.
         let takes_keys = self.palette.is_some() || self.preferences.is_some();
-        let mut actions = if takes_keys { Vec::new() } else { super::shortcuts::pressed(ui.ctx()) };
+        let mut actions =
+            if takes_keys { Vec::new() } else { crate::viewer::keys::shortcuts::pressed(ui.ctx()) };
         let room = super::layout::show(ui, self, &mut actions);
         for action in actions {
             self.act(action, window);

@@ -12,8 +12,8 @@ use crate::frames::Frame;
 use crate::image_file::{self, Format, Pixels};
 
 use super::Wake;
-use super::prepare::Preparation;
 use super::task::Task;
+use crate::viewer::render_thread::prepare::Preparation;
 
 /// A picture on its way to a file.
 pub struct Export {

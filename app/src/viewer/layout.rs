@@ -3,7 +3,6 @@
 use egui::{Align2, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, Stroke, Ui, vec2};
 
 use super::desk::Desk;
-use super::measurement::{Measurement, State};
 use super::panels::palette::Palette;
 use super::panels::preferences::Preferences;
 use super::panels::sampling::plain;
@@ -13,10 +12,11 @@ use super::panels::{
     overlay_legend, particles, performance, picked, quantity, saved, selection, start, statistics, timeline,
     toolbar,
 };
-use super::picture_view::{Motion, PictureView};
 use super::session::PictureFacts;
-use super::shortcuts::Action;
 use super::{theme, widgets};
+use crate::viewer::inspect::measurement::{Measurement, State};
+use crate::viewer::keys::shortcuts::Action;
+use crate::viewer::picture::picture_view::{Motion, PictureView};
 
 /// Shows the window's contents. Returns the room for the picture, in physical pixels.
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2] {
@@ -99,7 +99,7 @@ fn sections(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
 fn over_picture(ui: &mut Ui, desk: &mut Desk, rect: Rect, outer: Rect) {
     let measurement = desk.measurement.as_ref().map(|measurement| &measurement.state);
     let overlaid = overlay_legend::show(ui, &desk.session, &desk.picture.layers, measurement, rect);
-    super::annotations::show(ui, &desk.session, rect, !overlaid);
+    crate::viewer::picture::annotations::show(ui, &desk.session, rect, !overlaid);
     status(ui, desk, outer);
     tasks(ui, desk, outer);
     messages::show(ui, &mut desk.session, outer);

@@ -3,50 +3,36 @@
 //! - [`session`] is the state, without window or egui: run, playhead, view, camera, messages.
 //! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`export`] does
 //!   so for saved ones, and [`measurement`] to find out how far a picture is from full sampling.
-//! - [`kept`] is what outlives the program: settings, recent runs, the session.
-//! - [`desk`] ties the two together with dialogs and [`panels`]; [`window`] is winit and egui.
+//! - [`analysis`] is numbers about the particles, [`inspect`] asks the picture in view, and [`picture`] is
+//!   how it gets to the screen.
+//! - [`keys`] is what the keyboard does; [`kept`] what outlives the program: settings, recent runs, the
+//!   session.
+//! - [`desk`] ties all of it together with dialogs and [`panels`]; [`window`] is winit and egui.
 
 mod analysis;
-mod annotations;
 mod brush;
-mod budget;
 mod desk;
 mod dialogs;
-mod error_map;
 mod export;
 mod exports;
-mod field_ranges;
-mod handles;
 mod icons;
+mod inspect;
 mod kept;
-mod keymap;
-mod layers;
+mod keys;
 mod layout;
 mod live;
-mod measurement;
 mod messages;
 mod orbit_camera;
-mod overlay;
-mod pace;
 #[cfg(test)]
 mod panel_tests;
 mod panels;
-mod picked;
-mod picture_view;
+mod picture;
 mod playback;
-mod pointer;
-mod pointing;
-mod prepare;
-mod probe;
 mod render_thread;
 mod run;
 mod session;
-mod shortcuts;
-mod statistics;
-mod survey;
 mod task;
 mod theme;
-mod tone;
 mod widgets;
 mod window;
 

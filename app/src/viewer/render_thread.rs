@@ -5,6 +5,9 @@
 //! coarse enough to be there in time; at rest, pictures follow one another up to full size. Work
 //! that nobody waits for any more is cancelled.
 
+pub mod budget;
+pub mod pace;
+pub mod prepare;
 mod worker;
 
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -16,10 +19,10 @@ use renderer::{CellMap, GpuOptions, SamplingView, Stats, View};
 use crate::frames::Frame;
 
 use super::Wake;
-use super::budget::Budget;
-use super::pointing::Shot;
-use super::prepare::Facts;
-use super::probe::Probed;
+use crate::viewer::inspect::pointing::Shot;
+use crate::viewer::inspect::probe::Probed;
+use crate::viewer::render_thread::budget::Budget;
+use crate::viewer::render_thread::prepare::Facts;
 use worker::Worker;
 
 /// A wish for a picture.

@@ -19,16 +19,16 @@ use renderer::{Bounds, SelectView, View};
 
 use crate::frames::{Frame, FrameState};
 
-use super::analysis::{Analysis, Question};
-use super::budget::Budget;
-use super::field_ranges::FieldRanges;
 use super::messages::Messages;
 use super::orbit_camera::OrbitCamera;
-use super::overlay::Overlay;
 use super::playback::{Arrival, Playback};
 use super::render_thread::Job;
 use super::run::Run;
-use super::statistics;
+use crate::viewer::analysis::distribution::{Analysis, Question};
+use crate::viewer::analysis::field_ranges::FieldRanges;
+use crate::viewer::analysis::statistics;
+use crate::viewer::picture::overlay::Overlay;
+use crate::viewer::render_thread::budget::Budget;
 use cameras::Cameras;
 pub use costs::{Costs, Entry, Stage};
 use history::History;

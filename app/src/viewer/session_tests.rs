@@ -6,7 +6,7 @@ use super::*;
 use crate::frames::Sequence;
 use crate::viewer::Wake;
 use crate::viewer::orbit_camera::Side;
-use crate::viewer::prepare::Preparation;
+use crate::viewer::render_thread::prepare::Preparation;
 use crate::viewer::render_thread::{Report, Shown};
 
 const ROOM: [u32; 2] = [640, 400];

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use super::{Desk, Order};
 use crate::camera_text;
-use crate::viewer::picture_view::Motion;
-use crate::viewer::shortcuts::Action;
+use crate::viewer::keys::shortcuts::Action;
+use crate::viewer::picture::picture_view::Motion;
 
 impl Desk {
     /// Does what `action` says, if it is about the camera.

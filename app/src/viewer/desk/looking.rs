@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::{Desk, Done};
-use crate::viewer::field_ranges::FieldRanges;
-use crate::viewer::picked::Located;
-use crate::viewer::pointing::Pointed;
-use crate::viewer::statistics::Answer;
+use crate::viewer::analysis::field_ranges::FieldRanges;
+use crate::viewer::analysis::statistics::Answer;
+use crate::viewer::inspect::picked::Located;
+use crate::viewer::inspect::pointing::Pointed;
 
 /// What is at work.
 #[derive(Default)]

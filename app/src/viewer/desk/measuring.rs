@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::Desk;
-use crate::viewer::measurement::{Measurement, State};
+use crate::viewer::Wake;
+use crate::viewer::inspect::measurement::{Measurement, State};
+use crate::viewer::picture::error_map;
 use crate::viewer::task::Outcome;
-use crate::viewer::{Wake, error_map};
 
 impl Desk {
     /// Starts to measure the error of the picture in view.

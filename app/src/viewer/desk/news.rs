@@ -8,14 +8,14 @@ use super::Desk;
 use super::functions;
 use crate::frames::Sequence;
 use crate::viewer::Wake;
-use crate::viewer::analysis::Analysis;
+use crate::viewer::analysis::distribution::Analysis;
+use crate::viewer::analysis::field_ranges::FieldRanges;
+use crate::viewer::analysis::statistics::Answer;
 use crate::viewer::dialogs;
-use crate::viewer::field_ranges::FieldRanges;
+use crate::viewer::inspect::picked::Located;
+use crate::viewer::inspect::pointing::Pointed;
 use crate::viewer::kept::LastSession;
-use crate::viewer::picked::Located;
-use crate::viewer::pointing::Pointed;
 use crate::viewer::render_thread::Report;
-use crate::viewer::statistics::Answer;
 use crate::viewer::task::Outcome;
 
 /// What was done on another thread.

@@ -2,8 +2,8 @@
 
 use super::Desk;
 use crate::viewer::Wake;
+use crate::viewer::analysis::survey;
 use crate::viewer::session::Survey;
-use crate::viewer::survey;
 use crate::viewer::task::{Outcome, Task};
 
 impl Desk {

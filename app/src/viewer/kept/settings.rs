@@ -7,8 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::Kept;
 use crate::places;
-use crate::viewer::budget::Budget;
-use crate::viewer::keymap::{Binding, Keymap};
+use crate::viewer::keys::keymap::{Binding, Keymap};
+use crate::viewer::render_thread::budget::Budget;
 use crate::viewer::theme::Appearance;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -70,7 +70,7 @@ fn the_window_shows_them_over_the_picture() {
     session.view.annotations = Some(look);
     let harness = panel(session, |ui, session| {
         let rect = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(290.0, 290.0));
-        crate::viewer::annotations::show(ui, session, rect, true);
+        crate::viewer::picture::annotations::show(ui, session, rect, true);
     });
     assert_written(&harness, &["Block", "frame 0", "velocity", "X", "Y", "Z"]);
     assert!(texts(&harness).iter().any(|text| text.starts_with("at the target's depth, ")));

@@ -5,10 +5,10 @@ use egui_kittest::kittest::Queryable;
 use renderer::{Stats, View};
 
 use super::{fluid, panel, pictured};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::panels::bookmarks;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 
 type State = (Session, Vec<Action>);
 

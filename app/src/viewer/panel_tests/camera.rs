@@ -4,11 +4,11 @@ use glam::DVec3;
 use renderer::Stats;
 
 use super::{assert_written, fluid, panel, pictured, shown};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::camera;
-use crate::viewer::picture_view::Motion;
+use crate::viewer::picture::picture_view::Motion;
 use crate::viewer::render_thread::Report;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 
 type State = (Session, Motion, Vec<Action>);
 

@@ -6,10 +6,10 @@ use glam::DVec3;
 use renderer::{PathView, Stats};
 
 use super::{assert_written, panel, pictured, session_over};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::panels::camera_path;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 
 type State = (Session, Vec<Action>);
 

@@ -4,10 +4,10 @@ use egui_kittest::kittest::Queryable;
 use renderer::{CellClass, CellClasses, Evaluations, Stats};
 
 use super::{assert_written, fluid, panel, pictured};
-use crate::viewer::overlay::{Kind, Which};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::cells;
+use crate::viewer::picture::overlay::{Kind, Which};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 
 type State = (Session, Vec<Action>);
 

@@ -4,7 +4,7 @@ use egui_kittest::kittest::Queryable;
 use renderer::{ClipBox, ClipPlane, Stats};
 
 use super::{fluid, panel, pictured};
-use crate::viewer::handles::Handles;
+use crate::viewer::picture::handles::Handles;
 use crate::viewer::session::Session;
 
 /// A picture with its handles, over a ground that feels every drag past them.

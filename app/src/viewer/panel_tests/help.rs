@@ -4,8 +4,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 use super::texts;
+use crate::viewer::keys::shortcuts::{Action, GESTURES, SHORTCUTS};
 use crate::viewer::panels::help;
-use crate::viewer::shortcuts::{Action, GESTURES, SHORTCUTS};
 use crate::viewer::theme;
 
 fn opened() -> Harness<'static, bool> {

@@ -5,8 +5,8 @@ use egui_kittest::kittest::Queryable;
 use renderer::{Bound, BrickMask, BundleDetail, CellClass, CellDetail, KnownValues, MapCell, Stats};
 
 use super::{assert_written, fluid, pictured, shown, texts};
+use crate::viewer::inspect::probe::Probed;
 use crate::viewer::panels::inspector::Inspector;
-use crate::viewer::probe::Probed;
 use crate::viewer::render_thread::Report;
 use crate::viewer::session::Session;
 use crate::viewer::theme;

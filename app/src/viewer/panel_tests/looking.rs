@@ -9,12 +9,12 @@ use egui_kittest::kittest::Queryable;
 use renderer::Stats;
 
 use super::{assert_written, fluid, panel, session_over, shown};
+use crate::viewer::inspect::picked::{Mark, Picked};
+use crate::viewer::inspect::pointer;
+use crate::viewer::inspect::pointing::Shot;
 use crate::viewer::panels::{distance, picked};
-use crate::viewer::picked::{Mark, Picked};
-use crate::viewer::pointer;
-use crate::viewer::pointing::Shot;
-use crate::viewer::prepare::Preparation;
 use crate::viewer::render_thread::Report;
+use crate::viewer::render_thread::prepare::Preparation;
 use crate::viewer::session::{Session, Tool};
 
 /// Tells the session of a picture, with what it was drawn from.

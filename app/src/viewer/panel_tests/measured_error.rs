@@ -4,11 +4,11 @@ use renderer::Stats;
 
 use super::{assert_written, fluid, panel, pictured};
 use crate::difference::Difference;
-use crate::viewer::measurement::{Measured, SpeedUp, State};
-use crate::viewer::overlay::Kind;
+use crate::viewer::inspect::measurement::{Measured, SpeedUp, State};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::measured_error;
+use crate::viewer::picture::overlay::Kind;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 
 type Shown = (Session, Option<State>, Vec<Action>);
 

@@ -36,12 +36,12 @@ use egui::{Shape, Ui};
 use egui_kittest::Harness;
 use renderer::{Stats, View};
 
-use super::prepare::Preparation;
 use super::render_thread::{Report, Shown};
 use super::run::Run;
 use super::session::Session;
 use super::{Wake, theme};
 use crate::frames::Sequence;
+use crate::viewer::render_thread::prepare::Preparation;
 
 /// A session over a block of fluid: 4 × 4 × 4 particles with a density and a velocity.
 fn fluid() -> Session {

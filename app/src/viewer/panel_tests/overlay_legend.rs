@@ -4,9 +4,9 @@ use egui_kittest::Harness;
 use renderer::{BrickMask, BundleCells, CellClass, CellMap, MapCell, Stats};
 
 use super::{assert_written, fluid, panel, shown, texts};
-use crate::viewer::layers::Layers;
-use crate::viewer::overlay::{Kind, Overlay, Which};
 use crate::viewer::panels::overlay_legend;
+use crate::viewer::picture::layers::Layers;
+use crate::viewer::picture::overlay::{Kind, Overlay, Which};
 use crate::viewer::session::Session;
 
 type State = (Session, Layers);

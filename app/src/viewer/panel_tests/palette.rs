@@ -2,8 +2,8 @@ use egui::Key;
 use egui_kittest::kittest::Queryable;
 
 use super::panel;
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::palette::Palette;
-use crate::viewer::shortcuts::Action;
 
 /// An open palette, and what it called.
 fn palette() -> egui_kittest::Harness<'static, (Option<Palette>, Vec<Action>)> {

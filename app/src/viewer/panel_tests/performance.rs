@@ -4,11 +4,11 @@ use renderer::{Evaluations, Milliseconds, Stats};
 
 use super::{assert_written, fluid, panel, pictured, shown, texts};
 use crate::difference::Difference;
-use crate::viewer::measurement::{Measured, SpeedUp, State};
+use crate::viewer::inspect::measurement::{Measured, SpeedUp, State};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::{budget, hud::Hud, performance};
 use crate::viewer::render_thread::{Drawn, Report};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 use crate::viewer::{theme, widgets};
 
 fn stats() -> Stats {

@@ -3,9 +3,9 @@ use egui_kittest::kittest::Queryable;
 
 use super::panel;
 use crate::viewer::kept::Settings;
-use crate::viewer::keymap::Binding;
+use crate::viewer::keys::keymap::Binding;
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::preferences::Preferences;
-use crate::viewer::shortcuts::Action;
 
 fn keys() -> egui_kittest::Harness<'static, (Preferences, Settings)> {
     let state = (Preferences::default(), Settings::default());

@@ -3,9 +3,9 @@ use egui_kittest::kittest::Queryable;
 use renderer::{OpacityView, Scale};
 
 use super::{count, fluid, panel, session_over};
+use crate::viewer::analysis::survey::look_through;
 use crate::viewer::panels::quantity;
 use crate::viewer::session::{RangeSource, Session, Survey};
-use crate::viewer::survey::look_through;
 
 #[test]
 fn a_field_is_chosen_from_the_menu() {

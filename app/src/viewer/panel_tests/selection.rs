@@ -6,7 +6,7 @@ use glam::DVec3;
 use renderer::{SelectView, Stats};
 
 use super::{assert_written, fluid, panel, shown};
-use crate::viewer::field_ranges::FieldRanges;
+use crate::viewer::analysis::field_ranges::FieldRanges;
 use crate::viewer::panels::selection;
 use crate::viewer::render_thread::Report;
 use crate::viewer::session::Session;

@@ -1,6 +1,6 @@
 use egui::{Event, Key, Modifiers, RawInput};
 
-use crate::viewer::shortcuts::{Action, pressed};
+use crate::viewer::keys::shortcuts::{Action, pressed};
 
 fn key(key: Key, modifiers: Modifiers) -> Event {
     Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }

@@ -15,10 +15,10 @@ use egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 use renderer::{CellClasses, Evaluations, Milliseconds, Stats};
 
 use super::{fluid, inspector, performance, pictured};
-use crate::viewer::overlay::Kind;
 use crate::viewer::panels::inspector::Inspector;
 use crate::viewer::panels::sampling::SamplingPanel;
 use crate::viewer::panels::{cells, measured_error, performance as panel, saved};
+use crate::viewer::picture::overlay::Kind;
 use crate::viewer::session::Session;
 use crate::viewer::theme;
 

@@ -3,9 +3,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 use super::{assert_written, panel, session_over};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::panels::timeline;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 
 type State = (Session, Vec<Action>);
 

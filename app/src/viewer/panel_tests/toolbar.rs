@@ -5,10 +5,10 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use renderer::Stats;
 
 use super::{fluid, pictured};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::panels::toolbar::{self, Modes};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 use crate::viewer::theme;
 
 type Bar = (Session, Vec<Action>);

@@ -3,8 +3,8 @@
 use egui::{RichText, TextEdit, Ui, vec2};
 
 use crate::viewer::icons::{self, Icon};
+use crate::viewer::keys::shortcuts::{Action, hint};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::{theme, widgets};
 
 /// What was pressed in the list.

@@ -2,7 +2,7 @@
 
 use egui::{DragValue, RichText, Ui};
 
-use crate::viewer::budget::Budget;
+use crate::viewer::render_thread::budget::Budget;
 use crate::viewer::session::Session;
 use crate::viewer::theme;
 use crate::viewer::widgets::{self, Areas};

@@ -3,10 +3,10 @@
 use egui::{DragValue, RichText, Ui};
 use glam::DVec3;
 
+use crate::viewer::keys::shortcuts::{Action, hint};
 use crate::viewer::orbit_camera::OrbitCamera;
-use crate::viewer::picture_view::Motion;
+use crate::viewer::picture::picture_view::Motion;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::{theme, widgets};
 
 pub fn show(ui: &mut Ui, session: &mut Session, motion: &mut Motion, actions: &mut Vec<Action>) {

@@ -3,8 +3,8 @@
 use egui::{DragValue, RichText, Ui};
 use renderer::PathView;
 
+use crate::viewer::keys::shortcuts::{Action, hint};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::{theme, widgets};
 
 pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {

@@ -4,10 +4,10 @@ use egui::{ComboBox, RichText, Slider, Ui};
 use renderer::{CELL_SLICES, CellClass, Stats};
 
 use crate::overlay::look;
-use crate::viewer::measurement::State;
-use crate::viewer::overlay::{Kind, Overlay, Which};
+use crate::viewer::inspect::measurement::State;
+use crate::viewer::keys::shortcuts::Action;
+use crate::viewer::picture::overlay::{Kind, Overlay, Which};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 use crate::viewer::theme;
 use crate::viewer::widgets::{self, Areas};
 

@@ -2,8 +2,8 @@
 
 use egui::{Rect, Ui, pos2, vec2};
 
-use crate::viewer::error_map;
-use crate::viewer::measurement::Measured;
+use crate::viewer::inspect::measurement::Measured;
+use crate::viewer::picture::error_map;
 
 use super::legend;
 

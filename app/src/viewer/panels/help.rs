@@ -2,8 +2,8 @@
 
 use egui::{Align2, RichText, Ui, vec2};
 
+use crate::viewer::keys::shortcuts::{Action, GESTURES, SHORTCUTS, Shortcut, keys};
 use crate::viewer::orbit_camera::Side;
-use crate::viewer::shortcuts::{Action, GESTURES, SHORTCUTS, Shortcut, keys};
 use crate::viewer::theme;
 
 /// Column of the keys, in points.

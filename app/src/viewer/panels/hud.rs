@@ -3,7 +3,7 @@
 use egui::{Align, Align2, Color32, Layout, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::measurement::State;
+use crate::viewer::inspect::measurement::State;
 use crate::viewer::session::{Entry, Session, Stage};
 use crate::viewer::theme;
 use crate::viewer::widgets::{self, Areas};

@@ -3,8 +3,8 @@
 use egui::Ui;
 use renderer::ImageView;
 
+use crate::viewer::keys::shortcuts::{Action, hint, keys};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint, keys};
 use crate::viewer::widgets;
 
 /// Sizes on offer.

@@ -4,7 +4,7 @@ use egui::{Align, Layout, Pos2, RichText, Ui, pos2, vec2};
 use renderer::{Bound, CellClass, CellDetail};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::probe::Probed;
+use crate::viewer::inspect::probe::Probed;
 use crate::viewer::session::Session;
 use crate::viewer::theme;
 use crate::viewer::widgets;

@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Painter, Rect, Sense, Stroke, Ui, pos2, vec2};
 use renderer::{Bound, Brick, BundleDetail, CellClass, CellDetail, KnownValues};
 
-use crate::viewer::probe::Probed;
+use crate::viewer::inspect::probe::Probed;
 use crate::viewer::session::Session;
 use crate::viewer::{theme, widgets};
 

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use renderer::{CellDetail, KnownValues, Placement};
 
 use crate::overlay::look;
-use crate::viewer::probe::Probed;
+use crate::viewer::inspect::probe::Probed;
 use crate::viewer::{theme, widgets};
 
 use super::cell_classes::colour;

@@ -2,10 +2,10 @@
 
 use egui::{Ui, vec2};
 
-use crate::viewer::measurement::{Measured, State};
-use crate::viewer::overlay::Kind;
+use crate::viewer::inspect::measurement::{Measured, State};
+use crate::viewer::keys::shortcuts::Action;
+use crate::viewer::picture::overlay::Kind;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 use crate::viewer::theme;
 use crate::viewer::widgets::{self, Areas};
 

@@ -4,11 +4,12 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use renderer::CellClass;
 
 use crate::overlay::look;
-use crate::viewer::layers::Layers;
-use crate::viewer::measurement::State;
-use crate::viewer::overlay::{Kind, Which};
+use crate::viewer::inspect::measurement::State;
+use crate::viewer::picture::error_map;
+use crate::viewer::picture::layers::Layers;
+use crate::viewer::picture::overlay::{Kind, Which};
 use crate::viewer::session::Session;
-use crate::viewer::{error_map, theme, widgets};
+use crate::viewer::{theme, widgets};
 
 use super::{cells, error_legend, legend};
 

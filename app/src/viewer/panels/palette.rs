@@ -2,8 +2,8 @@
 
 use egui::{Align2, Key, RichText, Ui, vec2};
 
-use crate::viewer::keymap::actions;
-use crate::viewer::shortcuts::{Action, SHORTCUTS, keys, meaning};
+use crate::viewer::keys::keymap::actions;
+use crate::viewer::keys::shortcuts::{Action, SHORTCUTS, keys, meaning};
 use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
 

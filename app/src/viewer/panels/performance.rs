@@ -2,8 +2,8 @@
 
 use egui::{Align2, RichText, Sense, Ui, vec2};
 
+use crate::viewer::keys::shortcuts::{Action, hint};
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::{Action, hint};
 use crate::viewer::{theme, widgets};
 
 use super::budget;

@@ -3,7 +3,7 @@
 use egui::{Align, Layout, Pos2, Rect, RichText, ScrollArea, Ui, pos2};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::picked::{Mark, Picked};
+use crate::viewer::inspect::picked::{Mark, Picked};
 use crate::viewer::session::Session;
 use crate::viewer::theme;
 use crate::viewer::widgets;

@@ -4,8 +4,8 @@ use egui::{Align, Event, Key, KeyboardShortcut, Layout, RichText, ScrollArea, Ui
 
 use crate::viewer::desk::Desk;
 use crate::viewer::kept::Settings;
-use crate::viewer::keymap::{Keymap, actions};
-use crate::viewer::shortcuts::{Action, meaning};
+use crate::viewer::keys::keymap::{Keymap, actions};
+use crate::viewer::keys::shortcuts::{Action, meaning};
 use crate::viewer::theme::{self, Appearance};
 use crate::viewer::widgets;
 

@@ -5,7 +5,7 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 use crate::viewer::desk::Desk;
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::kept::{self, Recent};
-use crate::viewer::shortcuts::{Action, keys};
+use crate::viewer::keys::shortcuts::{Action, keys};
 use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
 

@@ -3,8 +3,8 @@
 use egui::{RichText, Ui};
 use renderer::Bounds;
 
+use crate::viewer::analysis::statistics::{Statistics, Values};
 use crate::viewer::session::Session;
-use crate::viewer::statistics::{Statistics, Values};
 use crate::viewer::{theme, widgets};
 
 pub fn show(ui: &mut Ui, session: &mut Session) {

@@ -4,9 +4,9 @@ use egui::{Align, Color32, Layout, Pos2, Rect, RichText, Sense, Stroke, Ui, pos2
 
 use crate::frames::Cached;
 use crate::viewer::icons::{self, Icon};
+use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::playback::Playback;
 use crate::viewer::session::Session;
-use crate::viewer::shortcuts::Action;
 use crate::viewer::{theme, widgets};
 
 pub const HEIGHT: f32 = 64.0;

@@ -3,9 +3,9 @@
 use egui::{Align, Button, Layout, Response, Ui};
 
 use crate::viewer::icons::{self, Icon};
+use crate::viewer::keys::shortcuts::{Action, hint, keys};
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::session::{Session, Tool};
-use crate::viewer::shortcuts::{Action, hint, keys};
 use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
 

@@ -13,12 +13,12 @@ use renderer::{
 use super::{Drawn, IDLE, Job, Looks, Report, Shown, Slot, without_background};
 use crate::frames::Frame;
 use crate::viewer::Wake;
-use crate::viewer::budget::{Budget, Raise};
-use crate::viewer::pace::{DIVISORS, Pace};
-use crate::viewer::pointing::Shot;
-use crate::viewer::prepare::{Facts, Preparation};
-use crate::viewer::probe::Probed;
-use crate::viewer::tone;
+use crate::viewer::inspect::pointing::Shot;
+use crate::viewer::inspect::probe::Probed;
+use crate::viewer::picture::tone;
+use crate::viewer::render_thread::budget::{Budget, Raise};
+use crate::viewer::render_thread::pace::{DIVISORS, Pace};
+use crate::viewer::render_thread::prepare::{Facts, Preparation};
 
 /// Milliseconds that a picture may take while something moves: on a GPU, and on the CPU, where
 /// half the speed is worth twice the pixels.

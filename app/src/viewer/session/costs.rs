@@ -183,8 +183,8 @@ mod tests {
     use renderer::{Evaluations, Milliseconds, SamplingView, Stats};
 
     use super::*;
-    use crate::viewer::prepare::Facts;
     use crate::viewer::render_thread::Drawn;
+    use crate::viewer::render_thread::prepare::Facts;
 
     /// A picture that took 20 ms, of which 12 are those of the device.
     fn shown(moving: bool) -> Shown {

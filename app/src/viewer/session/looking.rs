@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Session;
-use crate::viewer::picked::{Located, Picked, Search};
-use crate::viewer::pointing::{Place, Pointed, Question, Shot};
+use crate::viewer::inspect::picked::{Located, Picked, Search};
+use crate::viewer::inspect::pointing::{Place, Pointed, Question, Shot};
 
 /// What a click in the picture does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

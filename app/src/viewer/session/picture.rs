@@ -6,9 +6,9 @@ use std::time::Instant;
 use renderer::{Rejected, SamplingView, Stats};
 
 use super::Session;
+use crate::viewer::inspect::probe::Probed;
 use crate::viewer::orbit_camera::OrbitCamera;
-use crate::viewer::prepare::Facts;
-use crate::viewer::probe::Probed;
+use crate::viewer::render_thread::prepare::Facts;
 use crate::viewer::render_thread::{Report, Shown};
 
 /// What is known of the picture on the screen.

@@ -6,8 +6,8 @@ use std::collections::{BTreeSet, HashMap};
 use renderer::Scale;
 
 use super::Session;
-use crate::viewer::analysis::Analysis;
-use crate::viewer::survey::{Field, Found};
+use crate::viewer::analysis::distribution::Analysis;
+use crate::viewer::analysis::survey::{Field, Found};
 
 /// Where the range of the transfer function comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use renderer::Bounds;
 use super::Session;
 use crate::projection::Projection;
 use crate::scene::Selection;
+use crate::viewer::analysis::statistics::Question;
 use crate::viewer::orbit_camera::Screen;
-use crate::viewer::statistics::Question;
 
 impl Session {
     /// Where points of the world are in a picture of this size.

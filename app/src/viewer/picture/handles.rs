@@ -8,10 +8,10 @@ use egui::{Color32, CursorIcon, Id, Painter, Pos2, Rect, Sense, Shape, Stroke, U
 use glam::DVec2;
 use renderer::{Bounds, ClipBox, ClipPlane};
 
-use super::session::Session;
-use super::theme;
-use super::widgets::Areas;
 use crate::projection::Projection;
+use crate::viewer::session::Session;
+use crate::viewer::theme;
+use crate::viewer::widgets::Areas;
 
 /// The handles, and the one that is dragged.
 pub struct Handles {

@@ -4,8 +4,8 @@
 use glam::{DVec2, DVec3};
 use renderer::{Bounds, ClipPlane};
 
-use super::reach::{along, around};
 use crate::projection::Projection;
+use crate::viewer::picture::handles::reach::{along, around};
 
 /// What of a plane is dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,8 +101,8 @@ pub fn outline(clip: &ClipPlane, scene: &Bounds) -> Vec<DVec3> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::reach::tests::projection;
     use super::*;
+    use crate::viewer::picture::handles::reach::tests::projection;
 
     const SCENE: Bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) };
 

@@ -2,7 +2,7 @@
 //!
 //! Two things make a picture quicker: a larger E_I, and fewer pixels. E_I comes first, since a known
 //! error in sharp pixels hides less than blurred ones: it rises until a picture of *full* size would keep
-//! the time, or up to a limit. What is then still missing is left to the resolution ([`super::pace`]),
+//! the time, or up to a limit. What is then still missing is left to the resolution ([`crate::viewer::render_thread::pace`]),
 //! which goes by the times of pictures with the E_I in force. Where E_I at its limit turns out to bring
 //! next to nothing (most of the time goes into the grid, or all is sampled in full because adapting does
 //! not pay), it goes back to the user's, and only the resolution is divided, until the scene takes a

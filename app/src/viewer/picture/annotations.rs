@@ -7,8 +7,8 @@ use renderer::AnnotationsView;
 use crate::annotate::{self, Drawing, Shape, Subject};
 use crate::scene::Selection;
 
-use super::orbit_camera::Screen;
-use super::session::Session;
+use crate::viewer::orbit_camera::Screen;
+use crate::viewer::session::Session;
 
 /// Draws what the session's view asks for over the picture at `rect`; without a colour bar where
 /// something else is explained in its place.

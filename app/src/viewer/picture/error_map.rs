@@ -2,9 +2,9 @@
 
 use egui::Color32;
 
-use super::measurement::Measured;
-use super::tone::srgb_byte;
 use crate::overlay::Sheet;
+use crate::viewer::inspect::measurement::Measured;
+use crate::viewer::picture::tone::srgb_byte;
 
 pub const ABOVE: Color32 = Color32::from_rgb(0xf0, 0x3e, 0x3e);
 

@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 use renderer::ClipBox;
 
-use super::reach::along;
 use crate::projection::Projection;
+use crate::viewer::picture::handles::reach::along;
 
 /// What of a box is dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,8 +91,8 @@ pub fn edges(clip: &ClipBox, projection: &Projection) -> Vec<([DVec2; 2], bool)>
 
 #[cfg(test)]
 mod tests {
-    use super::super::reach::tests::projection;
     use super::*;
+    use crate::viewer::picture::handles::reach::tests::projection;
 
     fn clip(rotation_degrees: DVec3) -> ClipBox {
         let (min, max) = (DVec3::new(-0.5, -0.4, -0.3), DVec3::new(0.5, 0.6, 0.7));

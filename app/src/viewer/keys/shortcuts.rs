@@ -4,8 +4,8 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 use serde::{Deserialize, Serialize};
 
-use super::keymap::Keymap;
-use super::orbit_camera::Side;
+use crate::viewer::keys::keymap::Keymap;
+use crate::viewer::orbit_camera::Side;
 
 /// A command to the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

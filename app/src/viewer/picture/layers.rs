@@ -6,9 +6,9 @@ use renderer::{CellClass, CellMap};
 
 use crate::overlay::{Mark, Sheet, counts};
 
-use super::error_map;
-use super::overlay::{Kind, Overlay, Which};
-use super::render_thread::Shown;
+use crate::viewer::picture::error_map;
+use crate::viewer::picture::overlay::{Kind, Overlay, Which};
+use crate::viewer::render_thread::Shown;
 
 /// Picture and overlay belong together: the cells came with the picture.
 #[derive(Default)]
@@ -107,7 +107,7 @@ mod tests {
     use renderer::{BrickMask, BundleCells, MapCell, SamplingView, Stats};
 
     use super::*;
-    use crate::viewer::prepare::Facts;
+    use crate::viewer::render_thread::prepare::Facts;
 
     /// A picture of one bundle, grey, in which there is one cell.
     fn shown(cells: bool) -> Shown {

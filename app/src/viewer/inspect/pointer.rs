@@ -6,11 +6,11 @@ use egui::{
 };
 use glam::DVec3;
 
-use super::picked::Mark;
-use super::pointing::{Pointed, Seen};
-use super::session::{Session, Tool};
-use super::{theme, widgets};
 use crate::projection::Projection;
+use crate::viewer::inspect::picked::Mark;
+use crate::viewer::inspect::pointing::{Pointed, Seen};
+use crate::viewer::session::{Session, Tool};
+use crate::viewer::{theme, widgets};
 
 /// Of the ring around a particle, in points.
 const RING: f32 = 7.0;

@@ -9,10 +9,10 @@ use crate::difference::{Difference, by_pixel, difference};
 use crate::frames::Frame;
 use crate::image_file::Pixels;
 
-use super::Wake;
-use super::prepare::Preparation;
-use super::render_thread::without_background;
-use super::task::{Outcome, Task};
+use crate::viewer::Wake;
+use crate::viewer::render_thread::prepare::Preparation;
+use crate::viewer::render_thread::without_background;
+use crate::viewer::task::{Outcome, Task};
 
 /// A measurement at work or done, of one view of one frame.
 pub struct Measurement {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use serde::{Deserialize, Serialize};
 
-use super::shortcuts::{Action, SHORTCUTS};
+use crate::viewer::keys::shortcuts::{Action, SHORTCUTS};
 
 /// The keys of every action.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -155,7 +155,7 @@ mod tests {
     fn every_action_has_a_name_and_no_two_have_the_same_keys() {
         let bindings = Keymap::default().bindings();
         for (index, (keys, action)) in bindings.iter().enumerate() {
-            assert!(!crate::viewer::shortcuts::meaning(*action).is_empty(), "{action:?}");
+            assert!(!crate::viewer::keys::shortcuts::meaning(*action).is_empty(), "{action:?}");
             let same = bindings[..index].iter().find(|(other, _)| other == keys);
             assert!(same.is_none(), "{keys:?} call {action:?} and {same:?}");
         }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use anyhow::bail;
 use renderer::{Progress, Scale};
 
-use super::analysis::extremes;
 use crate::frames::{Frame, FrameSource};
 use crate::scene::{Selection, quantity_names};
+use crate::viewer::analysis::distribution::extremes;
 
 /// A field's name, as a view has it, and a scale that it may be shown on.
 pub type Field = (Option<String>, Scale);

@@ -6,14 +6,15 @@ use egui::{
 };
 use glam::{DVec2, DVec3};
 
-use super::handles::Handles;
-use super::layers::Layers;
-use super::orbit_camera::{OrbitCamera, Screen};
-use super::overlay::Overlay;
-use super::panels::probe;
-use super::session::{Session, Tool};
-use super::widgets::Areas;
-use super::{pointer, theme};
+use crate::viewer::inspect::pointer;
+use crate::viewer::orbit_camera::{OrbitCamera, Screen};
+use crate::viewer::panels::probe;
+use crate::viewer::picture::handles::Handles;
+use crate::viewer::picture::layers::Layers;
+use crate::viewer::picture::overlay::Overlay;
+use crate::viewer::session::{Session, Tool};
+use crate::viewer::theme;
+use crate::viewer::widgets::Areas;
 
 /// The picture as a texture, and what the mouse does over it.
 pub struct PictureView {

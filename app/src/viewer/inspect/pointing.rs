@@ -116,7 +116,7 @@ mod tests {
 
     use super::*;
     use crate::frames::{Column, Field, Metadata};
-    use crate::viewer::prepare::Preparation;
+    use crate::viewer::render_thread::prepare::Preparation;
 
     /// A lattice of 5 × 5 × 5 particles from 0 to 4, whose heat is 10·z, seen from the front.
     fn shot() -> Shot {

@@ -1,0 +1,4 @@
+//! What the keyboard does: the actions, and which keys call them.
+
+pub mod keymap;
+pub mod shortcuts;
