@@ -2,7 +2,7 @@
 //!
 //! - [`session`] is the state, without window or egui: run, playhead, view, camera, messages.
 //! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`export`] does
-//!   so for saved ones, and [`measurement`] to find out how far a picture is from full sampling.
+//!   so for saved ones.
 //! - [`analysis`] is numbers about the particles, [`inspect`] asks the picture in view, and [`picture`] is
 //!   how it gets to the screen.
 //! - [`keys`] is what the keyboard does; [`kept`] what outlives the program: settings, recent runs, the
