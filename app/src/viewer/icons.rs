@@ -2,7 +2,7 @@
 
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::theme;
+use super::{accessible, theme};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
@@ -22,26 +22,39 @@ pub enum Icon {
 /// Width of a button.
 pub const WIDTH: f32 = theme::ROW_HEIGHT + 4.0;
 
-/// A square button with a sign on it; `on` for a switch that is on.
-pub fn button(ui: &mut Ui, icon: Icon, name: &str, on: bool, enabled: bool) -> Response {
-    let size = vec2(WIDTH, theme::ROW_HEIGHT);
-    let sense = if enabled { Sense::click() } else { Sense::hover() };
-    let (rect, response) = ui.allocate_exact_size(size, sense);
-    let response = response.accessible_name(name);
+/// A square button with a sign on it.
+pub fn button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool) -> Response {
+    ui.add_enabled_ui(enabled, |ui| {
+        let response = sign(ui, icon, false);
+        accessible::button(ui, &response, name);
+        response.on_hover_text(name)
+    })
+    .inner
+}
+
+/// A square switch with a sign on it.
+pub fn switch(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
+    let response = sign(ui, icon, on);
+    accessible::switch(ui, &response, name, on);
+    response.on_hover_text(name)
+}
+
+fn sign(ui: &mut Ui, icon: Icon, on: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, theme::ROW_HEIGHT), Sense::click());
     let fill = match () {
         () if response.is_pointer_button_down_on() => theme::colours().raised_press,
-        () if response.hovered() && enabled => theme::colours().raised_hover,
+        () if response.hovered() && ui.is_enabled() => theme::colours().raised_hover,
         () if on => theme::colours().accent_deep,
         () => Color32::TRANSPARENT,
     };
     ui.painter().rect_filled(rect, 4, fill);
-    let colour = match (enabled, on) {
+    let colour = match (ui.is_enabled(), on) {
         (false, _) => theme::colours().line,
         (true, true) => theme::colours().accent,
         (true, false) => theme::colours().text,
     };
     draw(ui.painter(), icon, rect.center(), colour);
-    response.on_hover_text(name)
+    response
 }
 
 fn draw(painter: &Painter, icon: Icon, centre: Pos2, colour: Color32) {

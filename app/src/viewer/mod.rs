@@ -9,6 +9,7 @@
 //!   session.
 //! - [`desk`] ties all of it together with dialogs and [`panels`]; [`window`] is winit and egui.
 
+mod accessible;
 mod analysis;
 mod brush;
 mod desk;

@@ -3,7 +3,7 @@
 use egui::collapsing_header::CollapsingState;
 use egui::{Align, Align2, Color32, Layout, Response, RichText, Sense, Stroke, Ui, pos2, vec2};
 
-use super::theme;
+use super::{accessible, theme};
 pub use crate::numbers::{on_axis, on_scale, short};
 
 /// Where the parts of the window are that scripts drive it by, for `--log-events`.
@@ -48,7 +48,7 @@ pub fn section(ui: &mut Ui, title: &'static str, open: bool, contents: impl FnOn
     let id = ui.make_persistent_id(("section", title));
     let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), Sense::click());
-    let response = response.accessible_name(title);
+    accessible::title(ui, &response, title, state.is_open());
     Areas::mark(ui, title, rect);
     if response.clicked() {
         state.toggle(ui);
@@ -129,7 +129,7 @@ pub fn choice<T: PartialEq + Copy>(ui: &mut Ui, chosen: &mut T, choices: &[(T, &
             });
             let fill = if here { theme::colours().accent_deep } else { theme::colours().raised };
             let button = egui::Button::new(text).fill(fill).min_size(vec2(width, theme::ROW_HEIGHT));
-            let response = ui.add(button).accessible_name(*label);
+            let response = ui.add(button.selected(here)).accessible_name(*label);
             let response = if hint.is_empty() { response } else { response.on_hover_text(*hint) };
             if response.clicked() {
                 *chosen = *value;

@@ -1,6 +1,6 @@
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::{assert_written, panel, session_over};
 use crate::viewer::keys::shortcuts::Action;
@@ -41,6 +41,34 @@ fn the_playhead_goes_where_the_track_is_clicked() {
     harness.run();
     assert_eq!(harness.state().0.playback.index(), 1);
     assert_written(&harness, &["1 / 2"]);
+}
+
+#[test]
+fn a_screen_reader_moves_the_playhead_and_hears_where_it_is() {
+    let mut harness = three_frames();
+    let heard = |harness: &Harness<State>| {
+        let timeline = harness.get_by_role_and_label(Role::Slider, "Timeline");
+        let node = timeline.accesskit_node();
+        [node.min_numeric_value(), node.numeric_value(), node.max_numeric_value()].map(Option::unwrap)
+    };
+    assert_eq!(heard(&harness), [0.0, 0.0, 2.0]);
+    for (wanted, reached) in [(2.0, 2.0), (-5.0, 0.0), (1.0, 1.0), (f64::NAN, 0.0), (1e300, 2.0)] {
+        harness.get_by_label("Timeline").set_value_accesskit(wanted);
+        harness.run();
+        assert_eq!(harness.state().0.playback.index() as f64, reached);
+        assert_eq!(heard(&harness), [0.0, reached, 2.0]);
+    }
+}
+
+#[test]
+fn a_switch_says_whether_it_is_on() {
+    let mut harness = three_frames();
+    for on in [true, false, true] {
+        let node = harness.get_by_role_and_label(Role::Button, "Play in a loop");
+        assert_eq!(node.accesskit_node().toggled(), Some(on.into()));
+        node.click();
+        harness.run();
+    }
 }
 
 #[test]

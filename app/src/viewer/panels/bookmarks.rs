@@ -43,7 +43,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
                     press = Some(Press::Update(index));
                 }
             });
-            if icons::button(ui, Icon::Cross, &format!("Delete {name}"), false, true).clicked() {
+            if icons::button(ui, Icon::Cross, &format!("Delete {name}"), true).clicked() {
                 press = Some(Press::Delete(index));
             }
         });

@@ -4,7 +4,7 @@ use egui::{Rect, Sense, Ui, pos2, vec2};
 use renderer::{ColourMap, MapKind, TransferView};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::{theme, widgets};
+use crate::viewer::{accessible, theme, widgets};
 
 use super::transfer_canvas::{gradient, to_screen};
 use super::transfer_edit as edit;
@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, transfer: &mut TransferView) -> bool {
             .on_hover_text("Another map changes the colours and leaves the opacities alone")
             .accessible_name("Colours");
         let reversed = transfer.map.as_ref().is_some_and(|map| map.reversed);
-        if icons::button(ui, Icon::Reverse, "Reverse the colours", reversed, true).clicked() {
+        if icons::switch(ui, Icon::Reverse, "Reverse the colours", reversed).clicked() {
             edit::reverse_colours(transfer);
         }
     });
@@ -52,7 +52,6 @@ pub fn show(ui: &mut Ui, transfer: &mut TransferView) -> bool {
 /// A map's colours and name. Returns whether it was clicked.
 fn line(ui: &mut Ui, map: &ColourMap, chosen: bool) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + 92.0, 22.0), Sense::click());
-    let response = response.accessible_name(map.name);
     if chosen || response.hovered() {
         let fill = if chosen { theme::colours().accent_deep } else { theme::colours().raised_hover };
         ui.painter().rect_filled(rect, 4, fill);
@@ -63,6 +62,7 @@ fn line(ui: &mut Ui, map: &ColourMap, chosen: bool) -> bool {
     let place = pos2(swatch.right() + 9.0, rect.center().y);
     let font = egui::TextStyle::Body.resolve(ui.style());
     ui.painter().text(place, egui::Align2::LEFT_CENTER, map.name, font, theme::colours().text);
+    accessible::switch(ui, &response, map.name, chosen);
     let clicked = response.clicked();
     if clicked {
         ui.close();

@@ -24,7 +24,7 @@ pub fn card(ui: &mut Ui, session: &mut Session) {
         .horizontal(|ui| {
             ui.label(RichText::new("Distance").heading().strong());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                !icons::button(ui, Icon::Cross, "Close (Escape)", false, true).clicked()
+                !icons::button(ui, Icon::Cross, "Close (Escape)", true).clicked()
             })
             .inner
         })

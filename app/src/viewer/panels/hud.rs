@@ -61,7 +61,7 @@ impl Hud {
         ui.horizontal(|ui| {
             ui.label(RichText::new("Performance").strong());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if icons::button(ui, Icon::Cross, "Close", false, true).clicked() {
+                if icons::button(ui, Icon::Cross, "Close", true).clicked() {
                     self.open = false;
                 }
                 let hint = "The pictures shown below as a table, to paste into a spreadsheet";

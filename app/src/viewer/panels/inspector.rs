@@ -77,7 +77,7 @@ fn header(ui: &mut Ui, [x, y]: [u32; 2]) -> bool {
     ui.horizontal(|ui| {
         ui.label(RichText::new(format!("Pixel {x}, {y}")).heading().strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            !icons::button(ui, Icon::Cross, "Close (Escape)", false, true).clicked()
+            !icons::button(ui, Icon::Cross, "Close (Escape)", true).clicked()
         })
         .inner
     })

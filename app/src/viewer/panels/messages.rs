@@ -42,7 +42,7 @@ fn card(ui: &mut Ui, message: &Message) -> bool {
         .inner_margin(Margin { left: 14, right: 6, top: 6, bottom: 6 });
     let shown = frame.show(ui, |ui| {
         ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-            let dismissed = icons::button(ui, Icon::Cross, "Dismiss", false, true).clicked();
+            let dismissed = icons::button(ui, Icon::Cross, "Dismiss", true).clicked();
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
                 ui.add_space(3.0);
                 let times = match message.times {

@@ -4,8 +4,8 @@ use egui::{Align2, Key, RichText, Ui, vec2};
 
 use crate::viewer::keys::keymap::actions;
 use crate::viewer::keys::shortcuts::{Action, SHORTCUTS, keys, meaning};
-use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
+use crate::viewer::{accessible, theme};
 
 /// An open palette.
 #[derive(Default)]
@@ -83,7 +83,6 @@ impl Palette {
 fn line(ui: &mut Ui, action: Action, chosen: bool) -> egui::Response {
     let size = vec2(ui.available_width(), LINE_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-    let response = response.accessible_name(meaning(action));
     if chosen || response.hovered() {
         let fill = if chosen { theme::colours().accent_deep } else { theme::colours().raised };
         ui.painter().rect_filled(rect, 4, fill);
@@ -96,6 +95,7 @@ fn line(ui: &mut Ui, action: Action, chosen: bool) -> egui::Response {
     let right = rect.right_center() - vec2(8.0, 0.0);
     let keys = keys(ui.ctx(), action);
     ui.painter().text(right, Align2::RIGHT_CENTER, keys, theme::small_font(), theme::colours().muted);
+    accessible::switch(ui, &response, meaning(action), chosen);
     response
 }
 

@@ -75,7 +75,7 @@ fn header(ui: &mut Ui, picked: &Picked) -> bool {
         .horizontal(|ui| {
             ui.label(RichText::new(title).heading().strong());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                !icons::button(ui, Icon::Cross, "Close (Escape)", false, true).clicked()
+                !icons::button(ui, Icon::Cross, "Close (Escape)", true).clicked()
             })
             .inner
         })

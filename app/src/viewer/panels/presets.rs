@@ -132,7 +132,7 @@ impl Presets {
                     ui.close();
                 }
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    if icons::button(ui, Icon::Cross, &format!("Delete {name}"), false, true).clicked() {
+                    if icons::button(ui, Icon::Cross, &format!("Delete {name}"), true).clicked() {
                         self.wishes.push(Wish::Delete(name.clone()));
                     }
                 });

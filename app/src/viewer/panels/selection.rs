@@ -103,7 +103,7 @@ pub fn header(ui: &mut Ui, name: &str, on: &mut bool, invert: &mut bool, meaning
         ui.set_min_height(theme::ROW_HEIGHT);
         ui.checkbox(on, RichText::new(name).strong()).on_hover_text("Whether it has an effect");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let removed = icons::button(ui, Icon::Cross, &format!("Remove {name}"), false, true).clicked();
+            let removed = icons::button(ui, Icon::Cross, &format!("Remove {name}"), true).clicked();
             let invert = ui.checkbox(invert, "Invert");
             invert.on_hover_text(meaning).accessible_name(format!("Invert {name}"));
             !removed

@@ -6,8 +6,8 @@ use crate::viewer::desk::Desk;
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::kept::{self, Recent};
 use crate::viewer::keys::shortcuts::{Action, keys};
-use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
+use crate::viewer::{accessible, theme};
 
 /// In points.
 pub const WIDTH: f32 = 300.0;
@@ -46,7 +46,7 @@ fn header(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal(|ui| {
         ui.label(RichText::new("sphcast").size(20.0).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let close = icons::button(ui, Icon::Cross, "Close the start page", false, true);
+            let close = icons::button(ui, Icon::Cross, "Close the start page", true);
             Areas::mark(ui, "close-start", close.rect);
             if close.clicked() {
                 desk.start = false;
@@ -130,10 +130,10 @@ fn title(ui: &mut Ui, text: &str) {
 /// A run by its name, and a word on it below.
 fn entry(ui: &mut Ui, name: &str, about: &str) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 42.0), egui::Sense::click());
-    let response = response.accessible_name(format!("{name}, {about}"));
-    if response.hovered() || response.has_focus() {
+    if response.hovered() {
         ui.painter().rect_filled(rect, 4, theme::colours().raised);
     }
+    accessible::button(ui, &response, &format!("{name}, {about}"));
     let inside = rect.shrink2(vec2(8.0, 4.0));
     let mut lines =
         ui.new_child(egui::UiBuilder::new().max_rect(inside).layout(Layout::top_down(Align::Min)));

@@ -7,7 +7,7 @@ use crate::viewer::icons::{self, Icon};
 use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::playback::Playback;
 use crate::viewer::session::Session;
-use crate::viewer::{theme, widgets};
+use crate::viewer::{accessible, theme, widgets};
 
 pub const HEIGHT: f32 = 64.0;
 const TRACK_HEIGHT: f32 = 8.0;
@@ -39,14 +39,17 @@ fn transport(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
         (Icon::StepForward, "Next frame  (Right)", Action::StepForward),
         (Icon::Last, "Last frame  (Ctrl+Right)", Action::Last),
     ] {
-        let on = action == Action::PlayPause && playing;
-        if icons::button(ui, icon, name, on, true).clicked() {
+        let pressed = match action {
+            Action::PlayPause => icons::switch(ui, icon, name, playing),
+            _ => icons::button(ui, icon, name, true),
+        };
+        if pressed.clicked() {
             actions.push(action);
         }
     }
     ui.add_space(6.0);
     let looping = &mut session.playback.looping;
-    if icons::button(ui, Icon::Loop, "Play in a loop", *looping, true).clicked() {
+    if icons::switch(ui, Icon::Loop, "Play in a loop", *looping).clicked() {
         *looping = !*looping;
     }
 }
@@ -70,7 +73,7 @@ fn follow(ui: &mut Ui, session: &mut Session) {
         return;
     }
     let on = session.is_following();
-    let button = egui::Button::new("Follow");
+    let button = egui::Button::new("Follow").selected(on);
     let button = if on { button.fill(theme::colours().accent_deep) } else { button };
     let response = ui.add(button).accessible_name("Follow the newest").on_hover_text(
         "Shows the newest frame, and every new one as soon as the solver has written it. Ends where you go to \
@@ -127,7 +130,6 @@ impl Track {
 fn track(ui: &mut Ui, session: &mut Session) {
     let size = vec2(ui.available_width(), 22.0);
     let (outer, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    let response = response.accessible_name("Timeline");
     let count = session.playback.count();
     if count == 0 {
         return;
@@ -135,15 +137,15 @@ fn track(ui: &mut Ui, session: &mut Session) {
     let rect = Rect::from_center_size(outer.center(), vec2(outer.width() - 12.0, TRACK_HEIGHT));
     widgets::Areas::mark(ui, "timeline", rect);
     let track = Track { rect, count };
-    if let Some(cursor) = response.interact_pointer_pos()
-        && (response.dragged() || response.clicked())
+    let told = accessible::slider(ui, &response, "Timeline", session.playback.index(), count - 1);
+    let pulled = response.dragged() || response.clicked();
+    let pointed = response.interact_pointer_pos().filter(|_| pulled).map(|cursor| track.at(cursor));
+    if let Some(index) = told.or(pointed)
+        && index != session.playback.index()
     {
-        let index = track.at(cursor);
-        if index != session.playback.index() {
-            session.playback.pause();
-            session.jump(index);
-            session.touch(std::time::Instant::now());
-        }
+        session.playback.pause();
+        session.jump(index);
+        session.touch(std::time::Instant::now());
     }
     paint(ui, session, &track);
     if let Some(cursor) = response.hover_pos() {

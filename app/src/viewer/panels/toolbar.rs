@@ -26,9 +26,9 @@ pub fn show(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Acti
         let ready = session.camera.is_some();
         ui.add_enabled_ui(ready, |ui| camera(ui, session, modes, actions));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            call(ui, ui_button("Help", false), Action::Help, actions);
-            call(ui, ui_button("Settings", false), Action::Settings, actions);
-            call(ui, ui_button("Panels", modes.panels), Action::Panels, actions);
+            call(ui, Button::new("Help"), Action::Help, actions);
+            call(ui, Button::new("Settings"), Action::Settings, actions);
+            call(ui, switch("Panels", modes.panels), Action::Panels, actions);
         });
     });
 }
@@ -61,22 +61,22 @@ fn steps(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
     ];
     for (icon, name, action, possible) in buttons {
         let name = format!("{name}  ({})", keys(ui.ctx(), action));
-        if icons::button(ui, icon, &name, false, possible).clicked() {
+        if icons::button(ui, icon, &name, possible).clicked() {
             actions.push(action);
         }
     }
 }
 
 fn camera(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Action>) {
-    call(ui, ui_button("Reset", false), Action::Reset, actions);
+    call(ui, Button::new("Reset"), Action::Reset, actions);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.spacing_mut().button_padding.x = 6.0;
         for side in Side::ALL {
-            call(ui, ui_button(side.label(), false), Action::Look(side), actions);
+            call(ui, Button::new(side.label()), Action::Look(side), actions);
         }
     });
-    call(ui, ui_button("Fly", modes.flying), Action::Fly, actions);
+    call(ui, switch("Fly", modes.flying), Action::Fly, actions);
     ui.menu_button("Bookmarks", |ui| {
         item(ui, "Bookmark the camera", Action::Bookmark, actions);
         if !session.view.bookmarks.is_empty() {
@@ -93,7 +93,7 @@ fn camera(ui: &mut Ui, session: &Session, modes: Modes, actions: &mut Vec<Action
         ("Measure", "measure distance", Tool::Measure, Action::Measure),
     ];
     for (label, area, tool, action) in tools {
-        let button = call(ui, ui_button(label, modes.tool == Some(tool)), action, actions);
+        let button = call(ui, switch(label, modes.tool == Some(tool)), action, actions);
         Areas::mark(ui, area, button.rect);
     }
 }
@@ -105,9 +105,9 @@ fn gap(ui: &mut Ui) {
     ui.add_space(4.0);
 }
 
-/// A button; a switch that is on stands out.
-fn ui_button(label: &'static str, on: bool) -> Button<'static> {
-    let button = Button::new(label);
+/// A button that is on or off.
+fn switch(label: &'static str, on: bool) -> Button<'static> {
+    let button = Button::new(label).selected(on);
     if on { button.fill(theme::colours().accent_deep) } else { button }
 }
 

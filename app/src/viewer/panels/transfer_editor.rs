@@ -6,7 +6,7 @@ use renderer::TransferView;
 
 use crate::annotate::ticks;
 use crate::viewer::session::Session;
-use crate::viewer::{theme, widgets};
+use crate::viewer::{accessible, theme, widgets};
 
 use super::presets::Presets;
 use super::transfer_canvas::{self as canvas, Axes, Strip};
@@ -82,7 +82,7 @@ impl TransferEditor {
         let height = CANVAS_HEIGHT + 8.0 + STRIP_HEIGHT + NODES_HEIGHT;
         let size = vec2(ui.available_width(), height);
         let (outer, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-        let response = response.accessible_name("Transfer function");
+        accessible::drawing(&response, "Transfer function");
         let inner = Rect::from_min_size(outer.min, vec2(outer.width(), CANVAS_HEIGHT)).shrink(7.0);
         let axes = Axes { rect: inner, log: self.log };
         let top = outer.top() + CANVAS_HEIGHT + 8.0;

@@ -13,8 +13,8 @@ use crate::viewer::picture::handles::Handles;
 use crate::viewer::picture::layers::Layers;
 use crate::viewer::picture::overlay::Overlay;
 use crate::viewer::session::{Session, Tool};
-use crate::viewer::theme;
 use crate::viewer::widgets::Areas;
+use crate::viewer::{accessible, theme};
 
 /// The picture as a texture, and what the mouse does over it.
 pub struct PictureView {
@@ -87,6 +87,7 @@ impl PictureView {
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) -> Rect {
         let outer = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(outer, Sense::click_and_drag());
+        accessible::drawing(&response, "Picture");
         ui.painter().rect_filled(outer, 0, theme::colours().ground);
         let rect = place(outer, session.fitted(), ui.pixels_per_point());
         Areas::mark(ui, "picture", rect);
