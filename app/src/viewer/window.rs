@@ -42,12 +42,22 @@ fn no_display(error: impl std::fmt::Display) -> anyhow::Error {
     )
 }
 
+/// Why the window is gone.
+fn display_gone() -> anyhow::Error {
+    anyhow!(
+        "display: the desktop has closed the connection: the session is kept, and the start page offers it when \
+         sphcast is started again"
+    )
+}
+
 pub fn run(options: Options) -> anyhow::Result<()> {
     let events = EventLoop::<Event>::with_user_event().build();
     let events = events.map_err(no_display)?;
     let mut app =
         App { state: State::Waiting(Some(Box::new(options))), proxy: events.create_proxy(), failure: None };
-    events.run_app(&mut app).map_err(no_display)?;
+    let ended = events.run_app(&mut app);
+    let was_open = matches!(app.state, State::Open(_));
+    ended.map_err(|error| if was_open { display_gone() } else { no_display(error) })?;
     app.failure.map_or(Ok(()), Err)
 }
 
