@@ -80,7 +80,7 @@ fn a_sequence_is_exported_as_the_command_line_makes_it() {
     window.wait_for_area("export");
     window.rest();
     window.click("export", [0.5, 0.5]);
-    window.wait_for("exported");
+    window.wait_for("saved");
     let exported: Vec<PathBuf> =
         (0..2).map(|index| folder.path().join(format!("frame-{index:04}.png"))).collect();
     let rendered = rendered(folder.path(), &picture.with_extension("json"), 2);

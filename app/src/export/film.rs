@@ -25,13 +25,15 @@ pub struct Run {
     pub numbers: Vec<usize>,
     /// Number of frames of the whole run.
     pub frames: usize,
+    /// A frame that need not be read, and its number in the whole run.
+    pub in_memory: Option<(usize, Arc<Frame>)>,
 }
 
 impl Run {
     /// All frames of `sequence`.
     pub fn whole(sequence: Sequence) -> Run {
         let frames = sequence.len();
-        Run { numbers: (0..frames).collect(), sequence, frames }
+        Run { numbers: (0..frames).collect(), sequence, frames, in_memory: None }
     }
 
     /// Keeps every `step`-th frame of a range.
@@ -48,6 +50,14 @@ impl Run {
         self.sequence.select(std::iter::repeat_n(0, pictures));
         self.numbers = (0..pictures).collect();
         self.frames = pictures;
+    }
+
+    /// Where the frame at `place` comes from.
+    fn source(&self, place: usize) -> Arc<dyn FrameSource> {
+        match &self.in_memory {
+            Some((number, frame)) if *number == self.numbers[place] => Arc::new(Arc::clone(frame)),
+            _ => Arc::clone(&self.sequence.sources()[place]) as Arc<dyn FrameSource>,
+        }
     }
 
     /// Whether it is one frame, once or more often.
@@ -92,10 +102,9 @@ impl Film {
         let part: Vec<usize> = (0..run.sequence.len()).filter(taken).collect();
         // They are no part of any picture.
         view.bookmarks.clear();
-        let all = run.sequence.frame_sources();
         let read = if run.is_one_frame() { part.len().min(1) } else { part.len() };
         let sources: Vec<Arc<Timed>> =
-            part[..read].iter().map(|&place| Timed::new(Arc::clone(&all[place]))).collect();
+            part[..read].iter().map(|&place| Timed::new(run.source(place))).collect();
         let streamed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
         let stream = FrameStream::new(streamed, READ_AHEAD, || {});
         Film { run, part, view, sources, stream, listener, quantity: None }

@@ -21,7 +21,7 @@ pub use layer::Layer;
 pub use listener::{Listener, Stage};
 pub use order::{Order, Summary};
 pub use output::Output;
-pub use pictures::{MOST_WHOLE, Made, Overlay, Pictures, Target};
+pub use pictures::{Made, Overlay, Pictures, Target};
 pub use shard::Shard;
 pub use stats_file::StatsFile;
 

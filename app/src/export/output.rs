@@ -9,8 +9,9 @@ use crate::io_error::describe;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Output {
     One(PathBuf),
-    /// `before{:0width}after`
+    /// `before{:0width}after` in a folder
     Numbered {
+        folder: PathBuf,
         before: String,
         width: usize,
         after: String,
@@ -20,8 +21,8 @@ pub enum Output {
 }
 
 impl Output {
-    /// Understands what `path` says for `frames` pictures in one of `formats`: a pattern where it holds
-    /// `{}`, `{:4}` or `{:04}`; a directory where there is one, or where the name has no ending or closes
+    /// Understands what `path` says for `frames` pictures in one of `formats`: a pattern where its name
+    /// holds `{}`, `{:4}` or `{:04}`; a directory where there is one, or where the name has no ending or closes
     /// with a slash.
     ///
     /// # Errors
@@ -36,11 +37,14 @@ impl Output {
             let endings: Vec<&str> = formats.iter().map(|format| format.ending()).collect();
             return Err(wrong(&format!("a picture's name ends in {}", endings.join(" or "))));
         }
-        if let Some((before, rest)) = text.split_once('{') {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if let Some((before, rest)) = name.split_once('{') {
             let parts = rest.split_once('}').filter(|(_, after)| !after.contains(['{', '}']));
             let parts = parts.and_then(|(number, after)| Some((width(number)?, after)));
             let (width, after) = parts.ok_or_else(|| wrong("a number pattern looks like out-{:04}.png"))?;
-            return Ok(Output::Numbered { before: before.to_owned(), width, after: after.to_owned() });
+            let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+            let (before, after) = (before.to_owned(), after.to_owned());
+            return Ok(Output::Numbered { folder, before, width, after });
         }
         if frames > 1 {
             let what = "frames need a number pattern, such as out-{:04}.png, or a directory";
@@ -53,7 +57,9 @@ impl Output {
     pub fn path(&self, number: usize) -> PathBuf {
         match self {
             Output::One(path) => path.clone(),
-            Output::Numbered { before, width, after } => format!("{before}{number:0width$}{after}").into(),
+            Output::Numbered { folder, before, width, after } => {
+                folder.join(format!("{before}{number:0width$}{after}"))
+            }
             Output::Directory(folder) => folder.join(format!("frame-{number:04}.png")),
         }
     }
@@ -97,6 +103,7 @@ mod tests {
         assert_eq!(path("pictures", 3), Path::new("pictures/frame-0007.png"));
         assert_eq!(path("pictures.d/", 3), Path::new("pictures.d/frame-0007.png"));
         assert_eq!(path("one.png", 1), Path::new("one.png"));
+        assert_eq!(path("{a}/one.png", 1), Path::new("{a}/one.png"), "only names are patterns");
     }
 
     #[test]

@@ -258,7 +258,7 @@ fn charges(cells: &CellMap) -> Vec<f32> {
 }
 
 /// Pixels of a picture that is rendered as a whole: 1 GiB of them.
-pub const MOST_WHOLE: u64 = 1 << 26;
+const MOST_WHOLE: u64 = 1 << 26;
 /// Pixels of a band of a larger one.
 const BAND: u32 = 1 << 24;
 

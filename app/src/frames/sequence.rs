@@ -219,8 +219,8 @@ impl Source {
 }
 
 impl FrameSource for Source {
-    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
-        Source::load(self, loading)
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Arc<Frame>> {
+        Source::load(self, loading).map(Arc::new)
     }
 }
 

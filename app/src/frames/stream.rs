@@ -16,7 +16,14 @@ use super::{Cancelled, Frame, Loading};
 pub trait FrameSource: Send + Sync {
     /// Reads the frame; called from a background thread, and again after the frame was dropped from
     /// the cache. Tells `loading` how far it is. An error is final.
-    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame>;
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Arc<Frame>>;
+}
+
+/// A frame that is in memory already.
+impl FrameSource for Arc<Frame> {
+    fn load(&self, _: &Arc<Loading>) -> anyhow::Result<Arc<Frame>> {
+        Ok(Arc::clone(self))
+    }
 }
 
 /// What is known of a frame.

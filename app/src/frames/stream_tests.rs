@@ -22,7 +22,7 @@ impl Fake {
 }
 
 impl FrameSource for Fake {
-    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Arc<Frame>> {
         loading.begin(self.rows as u64);
         self.loads.fetch_add(1, Ordering::SeqCst);
         drop(self.gate.lock().unwrap());
@@ -31,7 +31,7 @@ impl FrameSource for Fake {
             Some(fault) => anyhow::bail!(fault),
             None => {
                 let positions = Column::new(3, vec![0.0_f32; 3 * self.rows]).unwrap();
-                Ok(Frame::new(positions, Vec::new(), Metadata::default())?)
+                Ok(Arc::new(Frame::new(positions, Vec::new(), Metadata::default())?))
             }
         }
     }

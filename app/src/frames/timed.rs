@@ -29,7 +29,7 @@ impl Timed {
 }
 
 impl FrameSource for Timed {
-    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Frame> {
+    fn load(&self, loading: &Arc<Loading>) -> anyhow::Result<Arc<Frame>> {
         let start = Instant::now();
         let frame = self.source.load(loading);
         self.microseconds.store(start.elapsed().as_micros() as u64, Ordering::Relaxed);

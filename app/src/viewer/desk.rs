@@ -18,7 +18,6 @@ use renderer::GpuOptions;
 use winit::window::Window;
 
 use super::dialogs::{Dialogs, Purpose};
-use super::export::Export;
 use super::panels::hud::Hud;
 use super::panels::inspector::Inspector;
 use super::panels::palette::Palette;
@@ -55,9 +54,8 @@ pub struct Desk {
     pub(super) picture: PictureView,
     pub(super) editor: TransferEditor,
     pub(super) sampling: SamplingPanel,
-    /// Pictures that are being saved.
-    pub(super) exports: Vec<Export>,
-    exporting: Exporting,
+    /// Pictures and videos that are being saved.
+    pub(super) exporting: Exporting,
     /// Of the picture in view.
     pub(super) measurement: Option<Measurement>,
     /// Of all frames, for their range.
@@ -102,7 +100,6 @@ impl Desk {
             picture: PictureView::new(),
             editor: TransferEditor::default(),
             sampling: SamplingPanel::new(),
-            exports: Vec::new(),
             exporting: Exporting::new(&wake),
             measurement: None,
             survey: None,

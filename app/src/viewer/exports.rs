@@ -1,71 +1,20 @@
 //! Exports one after the other, in the background: the window goes on.
 
+mod plan;
+
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
-use renderer::{Gpu, GpuOptions, View};
+use renderer::{Gpu, GpuOptions};
 
-use crate::export::video::{Video, VideoFormat};
-use crate::export::{Layer, Listener, Order, Output, Run, Stage, StatsFile, Summary, Target};
-use crate::frames::Sequence;
-use crate::image_file::Format;
+use crate::export::{Listener, Stage, Summary};
 
 use super::Wake;
 use super::task::{Outcome, Task};
 
-/// What is to be exported, as often as it is started.
-#[derive(Clone)]
-pub struct Plan {
-    pub sequence: Sequence,
-    /// The first and the last frame, and how many steps there are from one to the next.
-    pub first: usize,
-    pub last: usize,
-    pub every: usize,
-    pub view: View,
-    /// A file, a number pattern, or a video.
-    pub path: PathBuf,
-    /// Pictures a second of a video.
-    pub rate: f64,
-    pub layers: Vec<Layer>,
-    pub view_file: Option<PathBuf>,
-    pub stats_file: Option<PathBuf>,
-    pub resumes: bool,
-}
-
-impl Plan {
-    /// # Errors
-    /// What is wrong with the path.
-    fn order(&self) -> anyhow::Result<Order> {
-        let mut run = Run::whole(self.sequence.clone());
-        let end = (self.last + 1).min(self.sequence.len());
-        run.select(self.first.min(end)..end, self.every.max(1));
-        let frames = run.sequence.len();
-        let target = match VideoFormat::of(&self.path) {
-            Some(format) => Target::Video(Video::new(self.path.clone(), format, self.rate)),
-            None => {
-                let output = Output::new(&self.path, frames, &[Format::Png, Format::Exr]);
-                Target::Files(output.map_err(anyhow::Error::msg)?)
-            }
-        };
-        if let Some(folder) = self.path.parent() {
-            Output::Directory(folder.to_owned()).prepare()?;
-        }
-        let stats = self.stats_file.clone().map(|path| StatsFile::new(path, frames > 1, self.resumes));
-        Ok(Order {
-            run,
-            shard: None,
-            view: self.view.clone(),
-            target,
-            overlay: None,
-            layers: self.layers.clone(),
-            stats,
-            view_file: self.view_file.clone(),
-            resumes: self.resumes,
-        })
-    }
-}
+pub use plan::Plan;
 
 /// How far an export is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,6 +171,11 @@ impl Exports {
         self.list.iter().filter(|export| export.is_pending()).count()
     }
 
+    /// The one that is being made, or will be next.
+    pub fn first_pending(&mut self) -> Option<&mut Export> {
+        self.list.iter_mut().find(|export| export.is_pending())
+    }
+
     pub fn cancel_all(&mut self) {
         self.list.iter_mut().filter(|export| export.is_pending()).for_each(Export::cancel);
     }
@@ -233,6 +187,8 @@ impl Exports {
             news.extend(lock(&export.watch.lines).drain(..).map(|line| News::of(&line)));
             let Some(outcome) = export.task.as_ref().and_then(Task::poll) else { continue };
             export.task = None;
+            // Who starts it again waits for the disk; who does not has the memory back.
+            export.plan.in_memory = None;
             export.state = match outcome {
                 Outcome::Done(summary) => {
                     news.push(News::Done(export.plan.path.clone()));
@@ -271,7 +227,10 @@ impl News {
 
 #[cfg(test)]
 mod tests {
+    use renderer::View;
+
     use super::*;
+    use crate::frames::Sequence;
 
     fn plan(path: PathBuf) -> Plan {
         let mut view = View::default();
@@ -281,8 +240,10 @@ mod tests {
             first: 0,
             last: 1,
             every: 1,
+            in_memory: None,
             view,
             path,
+            numbered: true,
             rate: 10.0,
             layers: Vec::new(),
             view_file: None,

@@ -199,10 +199,12 @@ fn tasks(ui: &mut Ui, desk: &mut Desk, outer: Rect) {
         }
         row += 1;
     }
-    for export in &desk.exports {
-        let name = export.path.file_name().unwrap_or_default().to_string_lossy();
-        if card(ui, outer, row, &format!("Saving {name}"), export.task.share()) {
-            export.task.cancel();
+    let pending = desk.exporting.queue.pending();
+    if let (false, Some(export)) = (desk.exporting.shows_queue(), desk.exporting.queue.first_pending()) {
+        let name = export.plan.path.file_name().unwrap_or_default().to_string_lossy();
+        let more = if pending > 1 { format!(", {} more to come", pending - 1) } else { String::new() };
+        if card(ui, outer, row, &format!("Saving {name}{more}"), export.progress().whole()) {
+            export.cancel();
         }
         row += 1;
     }

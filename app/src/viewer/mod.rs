@@ -1,7 +1,7 @@
 //! The window: open a run, look around in it, colour it, play it, save pictures of it.
 //!
 //! - [`session`] is the state, without window or egui: run, playhead, view, camera, messages.
-//! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`export`] does
+//! - [`render_thread`] turns the latest wish into pictures on a device of its own; [`exports`] does
 //!   so for saved ones.
 //! - [`analysis`] is numbers about the particles, [`inspect`] asks the picture in view, and [`picture`] is
 //!   how it gets to the screen.
@@ -14,7 +14,6 @@ mod analysis;
 mod brush;
 mod desk;
 mod dialogs;
-mod export;
 mod exports;
 mod icons;
 mod inspect;

@@ -103,7 +103,7 @@ impl State {
         nearer.map(|other| self.held(other)).sum::<usize>() + size <= self.budget
     }
 
-    pub fn finish(&mut self, index: usize, frame: anyhow::Result<Frame>) {
+    pub fn finish(&mut self, index: usize, frame: anyhow::Result<Arc<Frame>>) {
         let frame = match frame {
             Ok(frame) => frame,
             Err(error) => {
@@ -121,6 +121,6 @@ impl State {
             }
             self.evict(bytes);
         }
-        self.slots[index].state = SlotState::Ready(Arc::new(frame));
+        self.slots[index].state = SlotState::Ready(frame);
     }
 }

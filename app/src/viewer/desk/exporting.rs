@@ -1,4 +1,4 @@
-//! The export window and its queue, and what closing the window does to them.
+//! What is on its way to files: the queue, the export window, and what closing the window does to them.
 
 use std::path::Path;
 
@@ -11,11 +11,11 @@ use crate::viewer::dialogs::Purpose;
 use crate::viewer::exports::{Exports, News};
 use crate::viewer::panels::export::{ExportForm, Wish};
 
-/// The export window and what was ordered by it.
+/// All that is to be saved, and the export window.
 pub struct Exporting {
     /// The open window.
     form: Option<ExportForm>,
-    queue: Exports,
+    pub queue: Exports,
     folder_wanted: bool,
     /// Whether it is being asked if exports may be lost.
     quitting: bool,
@@ -31,6 +31,11 @@ impl Exporting {
         if let Some(form) = &mut self.form {
             form.ffmpeg = Some(possible);
         }
+    }
+
+    /// Whether the queue is to be seen.
+    pub fn shows_queue(&self) -> bool {
+        self.form.is_some()
     }
 
     pub fn folder_chosen(&mut self, folder: &Path) {
@@ -71,8 +76,8 @@ impl Desk {
                 News::Note(text) => self.session.messages.note(text),
                 News::Failed(text) => self.session.complain(text),
                 News::Done(path) => {
-                    self.session.messages.note(format!("Exported {}", path.display()));
-                    self.session.log(format!("exported {}", path.display()));
+                    self.session.messages.note(format!("Saved {}", path.display()));
+                    self.session.log(format!("saved {}", path.display()));
                 }
             }
         }

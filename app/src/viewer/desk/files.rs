@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::{Desk, Done, Opening};
 use crate::frames::Sequence;
-use crate::viewer::Wake;
 use crate::viewer::dialogs::Purpose;
-use crate::viewer::export::Export;
+use crate::viewer::exports::Plan;
 use crate::viewer::kept::LastSession;
 use crate::viewer::run::{self, Run};
 use crate::{image_file, view_file};
@@ -79,13 +78,10 @@ impl Desk {
     }
 
     pub(super) fn save_picture(&mut self, path: PathBuf) {
-        let Some(frame) = self.session.frame().cloned() else {
-            self.session.complain("There is no frame to save a picture of: open files first");
-            return;
-        };
-        let view = self.session.complete_view();
-        let wake = Wake::clone(&self.wake);
-        self.exports.push(Export::start(frame, view, path, self.gpu.clone(), wake));
+        match Plan::in_view(&self.session, path) {
+            Some(plan) => self.exporting.queue.add(plan),
+            None => self.session.complain("There is no frame to save a picture of: open files first"),
+        }
     }
 
     /// Saves picture and view in the working directory, under names that are free.

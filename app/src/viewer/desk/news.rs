@@ -16,7 +16,6 @@ use crate::viewer::inspect::picked::Located;
 use crate::viewer::inspect::pointing::Pointed;
 use crate::viewer::kept::LastSession;
 use crate::viewer::render_thread::Report;
-use crate::viewer::task::Outcome;
 
 /// What was done on another thread.
 pub(super) enum Done {
@@ -108,20 +107,6 @@ impl Desk {
             Some(dialogs::Outcome::Dismissed) => self.session.log("dialog closed"),
             None => {}
         }
-        let session = &mut self.session;
-        self.exports.retain(|export| {
-            let Some(outcome) = export.task.poll() else { return true };
-            let path = export.path.display();
-            match outcome {
-                Outcome::Done(()) => {
-                    session.messages.note(format!("Picture saved as {path}"));
-                    session.log(format!("saved {path}"));
-                }
-                Outcome::Cancelled => session.messages.note(format!("{path} was not saved")),
-                Outcome::Failed(text) => session.complain(text),
-            }
-            false
-        });
     }
 
     pub(super) fn work(&self, task: impl FnOnce() -> Done + Send + 'static) {

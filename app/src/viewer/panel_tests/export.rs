@@ -1,10 +1,10 @@
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
-use super::{panel, session_over};
+use super::{frame_arrives, panel, session_over};
 use crate::export::video::VideoFormat;
 use crate::image_file::Format;
-use crate::viewer::exports::{Exports, Plan};
+use crate::viewer::exports::{Exports, Plan, State};
 use crate::viewer::panels::export::{ExportForm, Kind};
 use crate::viewer::panels::export_queue;
 use crate::viewer::session::Session;
@@ -68,10 +68,13 @@ fn what_is_clicked_is_what_is_exported() {
     assert_eq!(video.path, std::path::Path::new("out/film.webm"));
     assert!(video.layers.is_empty(), "a video has none");
 
-    harness.state_mut().1.jump(7);
+    let session = &mut harness.state_mut().1;
+    session.jump(7);
+    frame_arrives(session);
     click(&mut harness, "Picture");
     let picture = plan(&harness);
     assert_eq!((picture.first, picture.last), (7, 7));
+    assert!(picture.in_memory.is_some(), "it is not read again");
     assert_eq!(picture.path, std::path::Path::new("out/sphcast-0007.exr"));
 }
 
@@ -81,6 +84,32 @@ fn without_a_name_there_is_nothing_to_export() {
     harness.state_mut().0.name = "  ".into();
     let (form, session) = harness.state();
     assert!(form.plan(session).is_none());
+}
+
+#[test]
+fn a_picture_of_the_view_is_as_it_is_seen() {
+    let mut session = session_over(&["demo"]);
+    session.jump(3);
+    frame_arrives(&mut session);
+    session.view.path.revolutions = 1.0;
+    let mut exports = Exports::new(std::sync::Arc::new(|| {}));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("{mine}.png");
+    session.view.image.width = 32;
+    session.view.image.height = 24;
+    session.fits_window = false;
+    exports.add(Plan::in_view(&session, path.clone()).unwrap());
+    let first = exports.first_pending().unwrap();
+    assert!(first.plan.view.path.is_empty(), "the camera stays where it is");
+    let limit = std::time::Instant::now() + std::time::Duration::from_secs(60);
+    while exports.pending() > 0 {
+        assert!(std::time::Instant::now() < limit);
+        exports.poll(&Default::default());
+    }
+    let [export] = exports.list.as_slice() else { panic!("one export") };
+    assert!(matches!(&export.state, State::Done(summary) if summary.frames == 1));
+    assert!(export.plan.in_memory.is_none(), "the memory is free again");
+    assert_eq!(crate::image_file::read(&path).unwrap().width, 32);
 }
 
 #[test]

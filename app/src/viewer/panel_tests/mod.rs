@@ -66,14 +66,19 @@ fn session_over(frames: &[&str]) -> Session {
     let mut session = Session::new(View::default());
     let paths: Vec<PathBuf> = frames.iter().map(PathBuf::from).collect();
     session.open(Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake));
+    frame_arrives(&mut session);
+    count(&mut session);
+    session
+}
+
+/// Waits for the frame at the playhead.
+fn frame_arrives(session: &mut Session) {
     let limit = Instant::now() + Duration::from_secs(20);
-    while session.frame().is_none() {
+    while session.frame().map(|(index, _)| *index) != Some(session.playback.index()) {
         assert!(Instant::now() < limit, "the frame did not come");
         session.poll(Instant::now());
         std::thread::sleep(Duration::from_millis(2));
     }
-    count(&mut session);
-    session
 }
 
 /// Counts what the session asks for, as the window does in the background.

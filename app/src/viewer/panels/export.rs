@@ -82,7 +82,7 @@ impl ExportForm {
 
     fn usual_name(&self, session: &Session) -> String {
         match self.kind {
-            Kind::Picture => format!("sphcast-{:04}", session.playback.index()),
+            Kind::Picture => format!("sphcast-{:04}", session.frame().map_or(0, |(index, _)| *index)),
             Kind::Sequence => "frame-{:04}".into(),
             Kind::Video => "film".into(),
         }
@@ -110,34 +110,27 @@ impl ExportForm {
 
     /// What the fields say of the run of `session`; `None` where they say nothing that could be done.
     pub fn plan(&self, session: &Session) -> Option<Plan> {
-        let sequence = session.run()?.sequence.clone();
         if self.name.trim().is_empty() || self.folder.trim().is_empty() {
             return None;
         }
-        let last_frame = sequence.len().checked_sub(1)?;
-        let here = session.playback.index();
-        let [first, last] = if self.kind == Kind::Picture { [here; 2] } else { [self.first, self.last] };
-        let mut view = session.saved_view();
-        [view.image.width, view.image.height] = self.size;
         let path = self.path();
+        let mut plan = match self.kind {
+            Kind::Picture => Plan::in_view(session, path.clone())?,
+            Kind::Sequence | Kind::Video => Plan::of_run(session, [self.first, self.last], path.clone())?,
+        };
+        (plan.every, plan.numbered) = (self.every, true);
+        [plan.view.image.width, plan.view.image.height] = self.size;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let stem = stem.split('{').next().unwrap_or_default().trim_end_matches(['-', '_', '.']).to_owned();
         let stem = if stem.is_empty() { "export" } else { &stem };
         let beside = |wanted: bool, ending| wanted.then(|| path.with_file_name(format!("{stem}.{ending}")));
         let is_exr = self.kind != Kind::Video && self.format == Format::Exr;
-        Some(Plan {
-            sequence,
-            first: first.min(last_frame),
-            last: last.clamp(first, last_frame),
-            every: self.every.max(1),
-            view,
-            rate: self.rate,
-            layers: if is_exr && self.predicted_error { vec![Layer::PredictedError] } else { Vec::new() },
-            view_file: beside(self.view_beside, "view.json"),
-            stats_file: beside(self.stats_beside, "stats.json"),
-            resumes: self.keep_done && self.kind != Kind::Video,
-            path,
-        })
+        plan.rate = self.rate;
+        plan.layers = if is_exr && self.predicted_error { vec![Layer::PredictedError] } else { Vec::new() };
+        plan.view_file = beside(self.view_beside, "view.json");
+        plan.stats_file = beside(self.stats_beside, "stats.json");
+        plan.resumes = self.keep_done && self.kind == Kind::Sequence;
+        Some(plan)
     }
 
     /// Shows the window as long as `form` is there.
