@@ -117,7 +117,8 @@ impl RenderArguments {
     fn target(&self, frames: usize) -> Result<Target, WrongArguments> {
         let Some(format) = VideoFormat::of(&self.out) else {
             let output = Output::new(&self.out, frames, &[Format::Png, Format::Exr]);
-            return output.map(Target::Files).map_err(|what| WrongArguments(format!("--out: {what}")));
+            let video = if Format::of(&self.out).is_none() { "; a video's in .mp4 or .webm" } else { "" };
+            return output.map(Target::Files).map_err(|what| WrongArguments(format!("--out: {what}{video}")));
         };
         let whole = [("--shard", self.shard.is_some()), ("--resume", self.resume)];
         if let Some((flag, _)) = whole.iter().find(|(_, given)| *given) {

@@ -53,6 +53,14 @@ impl VideoFormat {
     }
 }
 
+/// From red, green and blue to what is encoded, as the tags say; without them, ffmpeg takes the matrix of old
+/// television and players that of the new one, and all greens are off.
+const COLOURS: &str = "scale=flags=accurate_rnd+full_chroma_int:out_color_matrix=bt709:out_range=limited,\
+                       format=yuv420p";
+/// Tells players what the numbers mean: primaries and matrix of HDTV, the curve of sRGB.
+const TAGS: [&str; 8] =
+    ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"];
+
 /// A video that grows by a picture at a time. One that is given up leaves no file.
 pub struct Video {
     path: PathBuf,
@@ -109,8 +117,7 @@ impl Video {
             let ([width, height], path) = (encoder.size, self.path.display());
             bail!("{path}: its pictures are {width} x {height}, this one is {} x {}", size[0], size[1]);
         }
-        let behind = Some(background.unwrap_or_default());
-        let bytes: Vec<[u8; 4]> = pixels.data.par_iter().map(|&pixel| to_srgb8(pixel, behind)).collect();
+        let bytes = even(pixels, background.unwrap_or_default());
         let input = encoder.process.stdin.as_mut();
         let taken = input.map_or(Ok(()), |input| input.write_all(bytes.as_flattened()));
         // It ends where it cannot go on, and says why.
@@ -139,6 +146,20 @@ impl Video {
     }
 }
 
+/// The picture as bytes over `background`, with sides of even length, as colours at half the resolution need
+/// them: the last column and row are doubled where they must be.
+fn even(pixels: &Pixels, background: [f32; 3]) -> Vec<[u8; 4]> {
+    let [width, height] = [pixels.width, pixels.height].map(|side| side as usize);
+    let [wide, high] = [width, height].map(|side| side.next_multiple_of(2));
+    let mut bytes = vec![[0; 4]; wide * high];
+    bytes.par_chunks_mut(wide).enumerate().for_each(|(y, row)| {
+        let from = &pixels.data[y.min(height - 1) * width..][..width];
+        row.iter_mut().zip(from).for_each(|(to, &pixel)| *to = to_srgb8(pixel, Some(background)));
+        row[wide - 1] = row[width - 1];
+    });
+    bytes
+}
+
 impl Encoder {
     fn start(path: &Path, format: VideoFormat, rate: f64, size: [u32; 2]) -> anyhow::Result<Encoder> {
         let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
@@ -149,11 +170,14 @@ impl Encoder {
         let file = builder.tempfile_in(folder).context("cannot be written")?.into_temp_path();
         let mut command = Command::new("ffmpeg");
         command.args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"]);
-        command.args(["-video_size", &format!("{}x{}", size[0], size[1]), "-framerate", &rate.to_string()]);
-        // Colours at half resolution, as players want them, need even sides.
-        command.args(["-i", "-", "-an", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]);
+        let [width, height] = size.map(|side| side.next_multiple_of(2));
+        command.args(["-video_size", &format!("{width}x{height}"), "-framerate", &rate.to_string()]);
+        command.args(["-i", "-", "-an", "-vf", COLOURS, "-pix_fmt", "yuv420p"]).args(TAGS);
         command.args(format.arguments()).arg(&*file);
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        // Ctrl-C in a terminal is for whoever started it, who ends it then.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut process = command.spawn().map_err(|error| match error.kind() {
             ErrorKind::NotFound => anyhow!(MISSING),
             _ => anyhow!("ffmpeg: {error}"),

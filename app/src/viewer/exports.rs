@@ -140,6 +140,9 @@ pub enum News {
     Failed(String),
 }
 
+/// How long a picture may take to notice that it is not wanted any more.
+const PATIENCE: Duration = Duration::from_secs(10);
+
 /// All exports, of which one is made at a time: they share a device.
 pub struct Exports {
     pub list: Vec<Export>,
@@ -178,6 +181,17 @@ impl Exports {
 
     pub fn cancel_all(&mut self) {
         self.list.iter_mut().filter(|export| export.is_pending()).for_each(Export::cancel);
+    }
+
+    /// Cancels all and waits until that is done: what ends with the program leaves its half files behind. Not
+    /// for ever, as a device may hang.
+    pub fn end(&mut self) {
+        self.cancel_all();
+        let begin = Instant::now();
+        let at_work = |export: &Export| export.task.as_ref().is_some_and(|task| task.poll().is_none());
+        while begin.elapsed() < PATIENCE && self.list.iter().any(at_work) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
     }
 
     /// Starts the next one where none is being made, on a device of its own, and tells what happened.
@@ -284,6 +298,23 @@ mod tests {
         settle(&mut exports);
         assert!(folder.path().join("b-1.exr").exists());
         assert!(matches!(&exports.list[2].state, State::Done(summary) if summary.kept == 2), "all are there");
+    }
+
+    #[test]
+    fn at_the_end_of_the_program_no_half_file_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut exports = Exports::new(Arc::new(|| {}));
+        let mut large = plan(folder.path().join("large-{}.png"));
+        (large.view.image.width, large.view.image.height) = (9000, 8000);
+        exports.add(large);
+        let begin = Instant::now();
+        while std::fs::read_dir(folder.path()).unwrap().count() == 0 {
+            assert!(begin.elapsed() < Duration::from_secs(60), "it does not begin");
+            exports.poll(&GpuOptions::default());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        exports.end();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
     #[test]

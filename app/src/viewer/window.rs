@@ -135,7 +135,7 @@ impl ApplicationHandler<Event> for App {
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
-        if let State::Open(open) = &self.state {
+        if let State::Open(open) = &mut self.state {
             // Ending a picture in work takes a moment that nobody needs to watch.
             open.window.set_visible(false);
             open.desk.close();

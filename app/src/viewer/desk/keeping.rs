@@ -122,8 +122,10 @@ impl Desk {
         self.write(session);
     }
 
-    /// Writes the session for the last time. Nobody is left to tell where this fails.
-    pub fn close(&self) {
+    /// Ends exports, so that no half file is left, and writes the session for the last time. Nobody is left
+    /// to tell where this fails.
+    pub fn close(&mut self) {
+        self.exporting.queue.end();
         if let Some(session) = self.to_be_kept(true) {
             let _ = session.write();
         }
