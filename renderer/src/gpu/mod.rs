@@ -4,6 +4,8 @@ mod buffer;
 mod edits;
 mod pipeline;
 mod timing;
+#[cfg(test)]
+mod translation_tests;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -38,9 +38,12 @@ impl Pipeline {
     pub fn new(gpu: &Gpu, description: &PipelineDescription) -> Pipeline {
         let label = description.label;
         let device = &gpu.device;
+        let source = gpu.edits.apply(description.sources.concat());
+        #[cfg(test)]
+        super::translation_tests::note(description, &source);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(gpu.edits.apply(description.sources.concat()).into()),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
         });
         let entries: Vec<_> = description.bindings.iter().enumerate().map(layout_entry).collect();
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {

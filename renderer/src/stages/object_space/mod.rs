@@ -8,6 +8,7 @@ use bytemuck::{Pod, Zeroable};
 use super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, KERNEL_WGSL, TRANSFER_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+use crate::kernel::Kernel;
 use crate::scene::Scene;
 pub(crate) use hash_grid::HashGrid;
 
@@ -32,6 +33,19 @@ fn sources(fields: Fields) -> [&'static str; 6] {
     [FRAME_WGSL, KERNEL_WGSL, fields.wgsl(), BUNDLE_WGSL, TRANSFER_WGSL, include_str!("cast.wgsl")]
 }
 
+/// The shader for this kernel and so many fields.
+pub(crate) fn pipeline(gpu: &Gpu, kernel: Kernel, fields: Fields) -> Pipeline {
+    use Access::{Read, Uniform, Write};
+    let description = PipelineDescription {
+        label: "cast_by_places",
+        sources: &sources(fields),
+        entry_point: "cast_by_places",
+        constants: &[("KERNEL", f64::from(kernel.code()))],
+        bindings: &[&BUNDLE_BINDINGS[..], &[Uniform, Read, Read, Write]].concat(),
+    };
+    Pipeline::new(gpu, &description)
+}
+
 impl ObjectSpace {
     /// Brings `grid`, whose lengths are the device's, there. `pivot`: of positions in view space.
     pub(crate) fn new(
@@ -40,16 +54,8 @@ impl ObjectSpace {
         grid: &HashGrid,
         pivot: glam::DVec3,
     ) -> Result<ObjectSpace, RenderError> {
-        use Access::{Read, Uniform, Write};
-        let description = PipelineDescription {
-            label: "cast_by_places",
-            sources: &sources(scene.quantity.fields()),
-            entry_point: "cast_by_places",
-            constants: &[("KERNEL", f64::from(scene.kernel.code()))],
-            bindings: &[&BUNDLE_BINDINGS[..], &[Uniform, Read, Read, Write]].concat(),
-        };
         let mut object_space = ObjectSpace {
-            pipeline: Pipeline::new(gpu, &description),
+            pipeline: pipeline(gpu, scene.kernel, scene.quantity.fields()),
             grid: Buffer::uniform::<HashGridUniform>(gpu, "hash grid"),
             slots: Buffer::storage(gpu, "slots of a hash grid", size_of::<hash_grid::Slot>() as u64),
             references: Buffer::storage(gpu, "references of a hash grid", 4),
