@@ -102,6 +102,35 @@ fn what_is_there_is_left_and_the_rest_is_made() {
 }
 
 #[test]
+fn pictures_with_other_layers_are_made_anew() {
+    let folder = growing_run(2);
+    let resume = |layers: &[&str]| {
+        let arguments = ["--out", "{}.exr", "--tolerance", "0.01", "--resume"];
+        render(folder.path(), &[&arguments, layers].concat()).err
+    };
+    let kept = |said: String| said.contains("note: 2 of 2 pictures");
+    let ways: [&[&str]; 4] = [
+        &[],
+        &["--layers", "depth"],
+        &["--layers", "predicted-error"],
+        &["--layers", "depth,predicted-error"],
+    ];
+    for layers in ways {
+        assert!(!kept(resume(layers)), "{layers:?} are not what was there");
+        assert!(kept(resume(layers)), "{layers:?} are there");
+    }
+    assert!(kept(resume(&["--layers", "predicted-error,depth"])), "their order is that of the channels");
+    for shard in ["1/2", "2/2"] {
+        let arguments = ["--out", "part-{}.exr", "--tolerance", "0.01", "--shard", shard];
+        render(folder.path(), &[&arguments[..], &["--layers", "depth,predicted-error"]].concat());
+    }
+    for number in 0..2 {
+        let [a, b] = ["", "part-"].map(|part| fs::read(folder.path().join(format!("{part}{number}.exr"))));
+        assert!(a.unwrap() == b.unwrap(), "frame {number} is not the same picture");
+    }
+}
+
+#[test]
 fn a_frame_that_has_changed_is_drawn_again() {
     let folder = growing_run(2);
     let view =

@@ -9,7 +9,9 @@ use reference::guarantee::{calm, prepare_anyway};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey};
-use renderer::{Band, GpuOptions, Kernel, Picture, RenderError, Renderer, TooLarge, TransferFunction};
+use renderer::{
+    Band, BandLayers, GpuOptions, Kernel, Picture, RenderError, Renderer, TooLarge, TransferFunction,
+};
 
 /// Bytes that a tile may take: from a few tiles to a single bundle a tile.
 const MEMORY: [u64; 3] = [1 << 20, 256 << 10, 192 << 10];
@@ -105,7 +107,8 @@ fn bands_are_rows_of_the_picture() {
             rows.extend(band.pixels.into_iter().zip(charged));
             ControlFlow::Continue(())
         };
-        let stats = renderer.render_bands(&scene, 30, true, &mut { go_on }, &mut take).unwrap();
+        let layers = BandLayers { charges: true, ..BandLayers::default() };
+        let stats = renderer.render_bands(&scene, 30, layers, &mut { go_on }, &mut take).unwrap();
         assert_eq!(rows.len(), 97 * 75);
         for (place, (pixel, charge)) in rows.iter().enumerate() {
             let at = [place as u32 % 97, place as u32 / 97];
@@ -131,7 +134,13 @@ fn who_takes_the_bands_may_end_them() {
         taken += 1;
         ControlFlow::Break(())
     };
-    let result = renderer.render_bands(&scene, 8, false, &mut |_| ControlFlow::Continue(()), &mut take);
+    let result = renderer.render_bands(
+        &scene,
+        8,
+        BandLayers::default(),
+        &mut |_| ControlFlow::Continue(()),
+        &mut take,
+    );
     assert!(matches!(result, Err(RenderError::Cancelled)), "{result:?}");
     assert_eq!(taken, 1);
 }

@@ -15,7 +15,7 @@ use reference::picture::{Image, render_with_floor};
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey, plain_view};
 use reference::setup::Setup;
-use renderer::{Bound, GpuOptions, Kernel, OpacityView, OutsideView, Scale, Without};
+use renderer::{BandLayers, Bound, GpuOptions, Kernel, OpacityView, OutsideView, Scale, Without};
 
 /// The plain scene with an opacity that rises to the right and an own unit.
 fn plain(seed: u64) -> Scene {
@@ -268,7 +268,9 @@ fn bands_make_the_same_picture() {
         ControlFlow::Continue(())
     };
     let go_on = &mut |_| ControlFlow::Continue(());
-    shared().render_bands(&prepared, 16, true, go_on, &mut take).unwrap_or_else(|error| panic!("{error}"));
+    shared()
+        .render_bands(&prepared, 16, BandLayers::default(), go_on, &mut take)
+        .unwrap_or_else(|error| panic!("{error}"));
     let comparison = compare(&whole, &image);
     assert!(comparison.max <= 1e-4, "{comparison}");
 }

@@ -24,6 +24,18 @@ pub struct Band {
     /// For each pixel what is charged to its ray, where that was asked for: its error is not larger, but for
     /// rounding. 0 where it was sampled in full.
     pub charged: Option<Vec<f32>>,
+    /// For each pixel the mean view depth at which its opacity arises, where that was asked for: that of
+    /// [`Renderer::render_depths`].
+    pub depths: Option<Vec<f32>>,
+}
+
+/// What is asked for each pixel beside its colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BandLayers {
+    pub charges: bool,
+    /// They take a pass of full sampling more, whose time counts for the picture, and whose evaluations do
+    /// not.
+    pub depths: bool,
 }
 
 /// Takes the bands from top to bottom, and says whether to go on.
@@ -39,11 +51,11 @@ impl Renderer {
         &mut self,
         scene: &Scene,
         rows: u32,
-        with_charges: bool,
+        layers: BandLayers,
         progress: &mut Progress,
         take: &mut BandTaker,
     ) -> Result<Stats, RenderError> {
-        let result = self.cast_bands(scene, rows, with_charges, progress, take);
+        let result = self.cast_bands(scene, rows, layers, progress, take);
         if result.is_err() {
             self.forget();
         }
@@ -54,12 +66,15 @@ impl Renderer {
         &mut self,
         scene: &Scene,
         rows: u32,
-        with_charges: bool,
+        layers: BandLayers,
         progress: &mut Progress,
         take: &mut BandTaker,
     ) -> Result<Stats, RenderError> {
         let begin = Instant::now();
         let mut job = self.begin(scene)?;
+        if layers.depths {
+            job.limits = job.limits.with_depths();
+        }
         let [across, down] = Renderer::bundles(scene);
         let high = rows.div_ceil(BUNDLE_SIDE).clamp(1, down);
         let mut stats = self.stats_before(scene, &job.slices);
@@ -68,7 +83,7 @@ impl Renderer {
             job.first_row = first;
             let count = [across, high.min(down - first)];
             let mut part = |share: f32| progress((first as f32 + share * count[1] as f32) / down as f32);
-            let (band, after) = self.cast_band(&job, count, stats, with_charges, &mut part)?;
+            let (band, after) = self.cast_band(&mut job, count, stats, layers, &mut part)?;
             stats = after;
             if take(band).is_break() {
                 return Err(RenderError::Cancelled);
@@ -81,42 +96,43 @@ impl Renderer {
     /// Casts the band of `count` bundles, and adds what it cost to `stats`.
     fn cast_band(
         &mut self,
-        job: &Job,
+        job: &mut Job,
         count: [u32; 2],
         stats: Stats,
-        with_charges: bool,
+        layers: BandLayers,
         progress: &mut Progress,
     ) -> Result<(Band, Stats), RenderError> {
         let (width, first_row) = (job.scene.width, job.first_row * BUNDLE_SIDE);
         let height = (count[1] * BUNDLE_SIDE).min(job.scene.height - first_row);
         let size = width as usize * height as usize;
         let mut picture = Picture { width, height, pixels: vec![[0.0; 4]; size], stats };
-        let mut charged = with_charges.then(|| vec![0.0; size]);
+        let mut charged = layers.charges.then(|| vec![0.0; size]);
+        let mut depths = layers.depths.then(|| vec![f32::INFINITY; size]);
+        // The share of colours in the work.
+        let colours = if layers.depths { 0.5 } else { 1.0 };
 
         let tiles = plan::tiles(count, job.slices.count, job.limits);
-        let mut todo: Vec<Tile> = tiles.into_iter().map(|tile| tile.lower(job.first_row)).collect();
-        let cells: u64 = todo.iter().map(Tile::cells).sum();
-        let mut cells_done = 0;
-        todo.reverse();
-        while let Some(tile) = todo.pop() {
-            let mut part =
-                |share: f32| progress((cells_done as f32 + share * tile.cells() as f32) / cells as f32);
-            match self.prepare_tile(job, &tile, &mut picture.stats.milliseconds)? {
-                Ok(grid) => {
-                    picture.stats.pairs += grid.pairs;
-                    picture.stats.cells += grid.cells;
-                    self.cast_tile(job, &tile, grid, &mut part, &mut picture)?;
-                    if let Some(charged) = &mut charged
-                        && self.adapted
-                    {
-                        self.read_charges(&tile, job.first_row, width, charged)?;
-                    }
-                    cells_done += tile.cells();
+        let tiles = tiles.into_iter().map(|tile| tile.lower(job.first_row)).collect();
+        self.each_tile(
+            job,
+            tiles,
+            progress,
+            &mut picture,
+            &mut |renderer, job, tile, grid, part, picture| {
+                renderer.cast_tile(job, tile, grid, &mut |share| part(colours * share), picture)?;
+                if let Some(charged) = &mut charged
+                    && renderer.adapted
+                {
+                    renderer.read_charges(tile, job.first_row, width, charged)?;
                 }
-                Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
-            }
-        }
-        Ok((Band { first_row, pixels: picture.pixels, charged }, picture.stats))
+                if let Some(depths) = &mut depths {
+                    let mut part = |share: f32| part(colours + (1.0 - colours) * share);
+                    renderer.cast_depths(job, tile, &mut part, &mut picture.stats.milliseconds, depths)?;
+                }
+                Ok(())
+            },
+        )?;
+        Ok((Band { first_row, pixels: picture.pixels, charged, depths }, picture.stats))
     }
 
     /// Puts what is charged to the rays of `tile`, which is on the device, into the pixels of a band.

@@ -20,9 +20,10 @@
 //! 4. **cast** samples what is left. The particles of a cell are read once for all its rays; each is
 //!    evaluated only at samples inside its support.
 //!
-//! `plan` cuts a picture that does not fit the device into tiles; `tiles` takes one tile through the
-//! stages; `bands` hands over rows of a picture that does not fit the host; `renderer` knows which stages a change makes stale, and skips the others. On demand,
-//! `read_cells` reads back what became of each cell ([`CellMap`], [`BundleDetail`]).
+//! `plan` cuts a picture that does not fit the device into tiles, which `tile_by_tile` goes through; `tiles`
+//! takes one tile through the stages; `bands` hands over rows of a picture that does not fit the host;
+//! `renderer` knows which stages a change makes stale, and skips the others. On demand, `depth` tells how deep
+//! lies what is seen, and `read_cells` reads back what became of each cell ([`CellMap`], [`BundleDetail`]).
 //!
 //! # Two fields
 //!
@@ -31,6 +32,16 @@
 //! are, once for one field and once for two, and those for one field know nothing of a second. Both fields
 //! are bounded in every brick, and the bricks' colours are those over the bounds of the one, their opacities
 //! those over the bounds of the other: so the tolerance holds for two fields as for one.
+//!
+//! # Depth
+//!
+//! [`Renderer::render_depths`], and [`Renderer::render_bands`] beside the colours, tell for each pixel how deep
+//! lies what is seen there: the mean view depth at which its opacity arises, Σ T·(1 − t)·z / Σ T·(1 − t) over
+//! the samples of its ray, with z the view depth of a sample (along the camera's axis, not along the ray), t
+//! what light passes it, and T what passes all before it. At a surface that is the depth of the surface; in a
+//! cloud, of the middle of what is seen of it. It is +∞ where nothing is seen. Depths are always those of
+//! full sampling, whatever the tolerance of the colours: the same shaders composite them in place of colours
+//! (`cast/depth.wgsl`).
 //!
 //! # Numbers
 //!
@@ -50,6 +61,7 @@ mod colour_map;
 pub mod colour_space;
 mod crowds;
 mod cut;
+mod depth;
 mod error;
 mod gpu;
 mod inspect;
@@ -69,11 +81,12 @@ mod scene;
 mod selection;
 mod stages;
 mod stats;
+mod tile_by_tile;
 mod tiles;
 mod transfer;
 mod view;
 
-pub use bands::{Band, BandTaker};
+pub use bands::{Band, BandLayers, BandTaker};
 pub use camera::{BUNDLE_SIDE, CELL_SLICES, Camera, Slices};
 pub use cell_map::{
     Brick, BrickMask, BundleCells, BundleDetail, COLUMN_BRICKS, COLUMNS, CellBricks, CellClass, CellDetail,

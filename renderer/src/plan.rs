@@ -66,6 +66,11 @@ impl TileLimits {
             bundles: (share / BUNDLE_BYTES).max(1),
         }
     }
+
+    /// The same where pixels share their room with as much again for depths.
+    pub(crate) fn with_depths(self) -> TileLimits {
+        TileLimits { bundles: (self.bundles / 2).max(1), ..self }
+    }
 }
 
 impl Tile {

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use crate::camera::{BUNDLE_SIDE, Camera, Slices};
 use crate::cell_map::CellMap;
-use crate::error::{RenderError, TooLarge};
+use crate::error::RenderError;
 use crate::gpu::{Buffer, Gpu, Timing};
 use crate::kernel::Kernel;
 use crate::pace::Pace;
 use crate::picture::Picture;
-use crate::plan::{self, Tile, TileLimits};
+use crate::plan::{self, TileLimits};
 use crate::sampling::{Sampling, Without};
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
@@ -136,6 +136,7 @@ impl Renderer {
         if !renderer.gpu.edits.is_empty() {
             // Their texts may stand in shaders that are made when they are first used.
             renderer.cast.prepare(&renderer.gpu, Kernel::default(), Fields::Two);
+            renderer.cast.prepare_depth(&renderer.gpu, Kernel::default(), Fields::Two);
             renderer.adapt.prepare(&renderer.gpu, Kernel::default(), Without::Nothing, Fields::Two);
         }
         if let Some(text) = renderer.gpu.edits.unmade() {
@@ -226,7 +227,7 @@ impl Renderer {
             + self.cast.bytes();
     }
 
-    /// Renders tile by tile, and cuts those that are too large.
+    /// Renders tile by tile.
     fn render_tiles(
         &mut self,
         job: &mut Job,
@@ -234,28 +235,15 @@ impl Renderer {
         picture: &mut Picture,
         mut cells_wanted: Option<&mut CellMap>,
     ) -> Result<(), RenderError> {
-        let mut todo = plan::tiles(Renderer::bundles(job.scene), job.slices.count, job.limits);
-        let cells: u64 = todo.iter().map(Tile::cells).sum();
-        let mut cells_done = 0;
-        todo.reverse();
-        while let Some(tile) = todo.pop() {
-            job.only_tile = job.resident && tile.cells() == cells;
-            let mut tile_progress =
-                |part: f32| progress((cells_done as f32 + part * tile.cells() as f32) / cells as f32);
-            match self.prepare_tile(job, &tile, &mut picture.stats.milliseconds)? {
-                Ok(size) => {
-                    picture.stats.pairs += size.pairs;
-                    picture.stats.cells += size.cells;
-                    self.cast_tile(job, &tile, size, &mut tile_progress, picture)?;
-                    if let Some(map) = &mut cells_wanted {
-                        self.read_tile(&tile, map)?;
-                    }
-                    cells_done += tile.cells();
-                }
-                Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
+        let tiles = plan::tiles(Renderer::bundles(job.scene), job.slices.count, job.limits);
+        job.only_tile = job.resident && tiles.len() == 1;
+        self.each_tile(job, tiles, progress, picture, &mut |renderer, job, tile, size, progress, picture| {
+            renderer.cast_tile(job, tile, size, progress, picture)?;
+            match &mut cells_wanted {
+                Some(map) => renderer.read_tile(tile, map),
+                None => Ok(()),
             }
-        }
-        Ok(())
+        })
     }
 
     /// Brings to the device what all tiles share.
@@ -271,14 +259,6 @@ impl Renderer {
         self.frame.write(&self.gpu, &[FrameUniform::new(scene, &slices, self.store.count())])?;
         self.bundles.write_slices(&self.gpu, &slices, pivot_depth(&scene.camera), scene.particles.unit())?;
         Ok(Job { scene, slices, geometry, limits, resident, only_tile: false, first_row: 0 })
-    }
-
-    /// The two halves of a tile that is too large, the one to be cast first at the end.
-    pub(crate) fn halves(&self, tile: &Tile, too_large: TooLarge) -> Result<[Tile; 2], RenderError> {
-        match tile.split() {
-            Some([first, second]) => Ok([second, first]),
-            None => Err(RenderError::TooLarge(too_large)),
-        }
     }
 
     /// Bundles in x and y.

@@ -223,9 +223,7 @@ impl Renderer {
         self.clear_counters();
         self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
-        // A GPU takes its workgroups as it gets done with others, and neighbours share particles in
-        // its caches. A software adapter gives each thread a stretch of them beforehand.
-        let stride = if self.gpu.is_software() { spread(bundles) } else { 1 };
+        let stride = self.stride(bundles);
         let mut first = 0;
         while first < bundles {
             if progress(first as f32 / bundles as f32).is_break() {
@@ -246,6 +244,13 @@ impl Renderer {
         let kept = has_budget && job.only_tile && !self.recycles_bounds;
         self.analysed = kept.then(|| Analysed::of(job));
         self.fetch_tile(job, tile, size, picture)
+    }
+
+    /// The stride of turns over so many bundles. A GPU takes its workgroups as it gets done with others, and
+    /// neighbours share particles in its caches. A software adapter gives each thread a stretch of them
+    /// beforehand.
+    pub(crate) fn stride(&self, bundles: u64) -> u32 {
+        if self.gpu.is_software() { spread(bundles) } else { 1 }
     }
 
     /// Forgets what was counted in the tile before.

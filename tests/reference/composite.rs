@@ -15,14 +15,16 @@ impl Default for Ray {
 
 impl Ray {
     /// Adds a sample of linear colour and opacity α per reference length, which stands for a path of
-    /// `length` reference lengths.
-    pub fn add(&mut self, [r, g, b, alpha]: [f64; 4], length: f64) {
+    /// `length` reference lengths; T·(1 − t), what it adds to the opacity.
+    pub fn add(&mut self, [r, g, b, alpha]: [f64; 4], length: f64) -> f64 {
         // 1 − (1 − α)^length without the cancellation that thin samples suffer; ln 0 = −∞ gives 1.
         let opacity = -(length * (-alpha).ln_1p()).exp_m1();
+        let weight = self.transparency * opacity;
         for (irradiance, colour) in self.irradiance.iter_mut().zip([r, g, b]) {
-            *irradiance += self.transparency * opacity * colour;
+            *irradiance += weight * colour;
         }
         self.transparency *= 1.0 - opacity;
+        weight
     }
 
     /// Whether nothing behind can be seen.

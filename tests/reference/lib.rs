@@ -11,6 +11,7 @@
 //! | [`quantity`] | Q(x) and its range; [`neighbours`] finds the particles that reach x |
 //! | [`transfer`] | colour and opacity of u |
 //! | [`composite`] | front to back, with corrected path lengths |
+//! | [`depth`] | how deep lies what is seen |
 //! | [`setup`] | all settings of one picture |
 //! | [`picture`] | all of it together, pixel by pixel |
 //! | [`bricks`] | u, and what light passes, in bricks of 2 × 2 rays × 4 slabs |
@@ -26,6 +27,7 @@ pub mod bricks;
 pub mod camera;
 pub mod compare;
 pub mod composite;
+pub mod depth;
 pub mod device;
 pub mod extremes;
 pub mod floor;

@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::composite::Ray;
+use crate::depth::Sample;
 use crate::floor;
 use crate::neighbours::Neighbours;
 use crate::particle::Particle;
@@ -38,7 +39,10 @@ pub fn render_at_levels(setup: &Setup, particles: &[Particle], level_of: &LevelO
     let (width, height) = (setup.camera.width, setup.camera.height);
     let pixels = (0..width * height)
         .into_par_iter()
-        .map(|index| trace(setup, &particles, &neighbours, [index % width, index / width], level_of))
+        .map(|index| {
+            let pixel = [index % width, index / width];
+            trace(setup, &particles, &neighbours, pixel, level_of, &mut |_| {})
+        })
         .collect();
     Image { width, height, pixels }
 }
@@ -56,13 +60,14 @@ pub fn raised(setup: &Setup, particles: &[Particle]) -> Vec<Particle> {
     particles.iter().filter(|p| p.is_sound()).map(|p| floor::raise(p, setup)).collect()
 }
 
-/// Pixel (x, y).
-fn trace(
+/// Pixel (x, y). `see` is shown the samples that are not empty, from front to back.
+pub(crate) fn trace(
     setup: &Setup,
     particles: &[Particle],
     neighbours: &Neighbours,
     [x, y]: [u32; 2],
     level_of: &LevelOf,
+    see: &mut dyn FnMut(Sample),
 ) -> [f64; 4] {
     let d = setup.camera.ray(x, y);
     let mut ray = Ray::default();
@@ -70,11 +75,13 @@ fn trace(
     while i < setup.slices.count && !ray.is_opaque() {
         let slabs = 1 << level_of(i / CELL_SLABS);
         let s = |share: f64| setup.slices.depth(f64::from(i) + share * f64::from(slabs));
-        let point = setup.camera.eye + s(setup.place_in_slab) * d;
+        let depth = s(setup.place_in_slab);
+        let point = setup.camera.eye + depth * d;
         let around = || neighbours.around(point).map(|index| &particles[index]);
         if let Some(values) = values(setup, point, around) {
             let path = (s(1.0) - s(0.0)) * d.length();
-            ray.add(shade(setup, values), path / setup.reference_length);
+            let weight = ray.add(shade(setup, values), path / setup.reference_length);
+            see(Sample { slab: i, depth, weight });
         }
         i += slabs;
     }

@@ -40,6 +40,7 @@ is, and everything else is made anew; so are pictures without that text. Without
 Examples:
   sphcast render frame.vtu --view view.json --out frame.png --overlay cells.png
   sphcast render run/ --frames 10..20 --size 1024x1024 --out 'out-{:04}.exr' --stats stats.json
+  sphcast render run/ --view view.json --out 'out-{:04}.exr' --layers depth,predicted-error
   sphcast render run/ --view view.json --size 1920x1080 --out film.mp4 --fps 30
   sphcast render frame.vtu --turntable 36 --out 'around-{:02}.png'
   sphcast render run/ --view view.json --out frames/ --shard $SLURM_ARRAY_TASK_ID/16 --resume")]
@@ -58,7 +59,7 @@ pub struct RenderArguments {
     /// Write what the pictures cost: sizes, evaluations, milliseconds; renders each once more in full, to count
     #[arg(long, value_name = "PATH.json")]
     stats: Option<PathBuf>,
-    /// Values to put into the channels of an EXR beside its colour: predicted-error, as `predicted_error`
+    /// Values of each pixel that an EXR holds beside its colour
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     layers: Vec<Layer>,
     /// Pictures a second of a video

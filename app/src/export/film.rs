@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use anyhow::{Context, bail};
 use renderer::{
-    BandTaker, CellMap, ParticleSet, Picture, Progress, Quantity, RenderError, Renderer, Scene, Stats, View,
+    BandLayers, BandTaker, CellMap, ParticleSet, Picture, Progress, Quantity, RenderError, Renderer, Scene,
+    Stats, View,
 };
 
 use super::listener::{INTERRUPTED, Listener, Stage};
@@ -315,18 +316,29 @@ impl Film {
         self.follow(index, part, |progress| renderer.render_with_cells(scene, progress))
     }
 
-    /// The same in bands of rows, for a picture that is not to be held as a whole, with what is charged to
-    /// each pixel.
+    /// The same in bands of so many rows, for a picture that is not to be held as a whole, with `layers` of each
+    /// pixel.
     pub fn render_bands(
         &self,
         renderer: &mut Renderer,
         scene: &Scene,
         index: usize,
         part: Range<f32>,
-        rows: u32,
+        (rows, layers): (u32, BandLayers),
         take: &mut BandTaker,
     ) -> anyhow::Result<Stats> {
-        self.follow(index, part, |progress| renderer.render_bands(scene, rows, true, progress, take))
+        self.follow(index, part, |progress| renderer.render_bands(scene, rows, layers, progress, take))
+    }
+
+    /// The depths of the pixels of frame `index`.
+    pub fn render_depths(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        index: usize,
+        part: Range<f32>,
+    ) -> anyhow::Result<Vec<f32>> {
+        self.follow(index, part, |progress| renderer.render_depths(scene, progress))
     }
 
     /// Shows the progress of `work`, and ends it when the user asks for that.

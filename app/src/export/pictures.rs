@@ -4,10 +4,10 @@ use std::ops::{ControlFlow, Range};
 use std::path::Path;
 
 use anyhow::{Context, bail};
-use renderer::{Band, CellMap, Picture, Renderer, Scene, Stats, View};
+use renderer::{Band, BandLayers, CellMap, Picture, Renderer, Scene, Stats, View};
 
 use super::video::Video;
-use super::{Fatal, Film, Layer, Output, StatsFile, record};
+use super::{Fatal, Film, Layer, Output, StatsFile, layer, record};
 use crate::annotate::Annotations;
 use crate::image_file::{self, Format, Header, Pixels, Rows, Unwritten};
 use crate::overlay::{self, Lettering};
@@ -145,22 +145,25 @@ impl Pictures {
 
     fn draw_whole(&mut self, film: &Film, shot: &Shot, part: Range<f32>) -> anyhow::Result<Stats> {
         let Shot { index, scene, .. } = shot;
+        let (colours, rest) = in_two(part, layer::asked(&self.layers).depths);
         let (picture, cells) = match self.overlay {
-            None => (film.render(&mut self.renderer, scene, *index, part)?, None),
+            None => (film.render(&mut self.renderer, scene, *index, colours)?, None),
             Some(_) => {
-                let (picture, cells) = film.render_with_cells(&mut self.renderer, scene, *index, part)?;
+                let (picture, cells) = film.render_with_cells(&mut self.renderer, scene, *index, colours)?;
                 (picture, Some(cells))
             }
         };
+        let depths =
+            rest.map(|part| film.render_depths(&mut self.renderer, scene, *index, part)).transpose()?;
         let Picture { width, height, pixels, stats } = picture;
         let mut pixels = Pixels { width, height, data: pixels };
         let number = film.number(*index);
         let layers = &self.layers;
-        let charged = cells.as_ref().filter(|_| !layers.is_empty()).map(charges);
+        let charged = cells.as_ref().filter(|_| layer::asked(layers).charges).map(charges);
         let write = |output: &Output, pixels: &Pixels, layers: &[Layer]| {
             let names = Layer::channels(layers);
             image_file::write_rows(&output.path(number), &shot.header(film, &names), |sink| {
-                let channels = charged.iter().filter(|_| !layers.is_empty()).map(Vec::as_slice).collect();
+                let channels = if names.is_empty() { Vec::new() } else { layer::values(&depths, &charged) };
                 sink(Rows { pixels: &pixels.data, channels })
             })
             .map_err(fatal)
@@ -188,7 +191,8 @@ impl Pictures {
             bail!("{}: a video is drawn picture by picture", film.name(*index))
         };
         let (path, names) = (output.path(film.number(*index)), Layer::channels(&self.layers));
-        let (renderer, layers, format) = (&mut self.renderer, &self.layers, output.format());
+        let (renderer, format) = (&mut self.renderer, output.format());
+        let asked = layer::asked(&self.layers);
         image_file::write_rows(&path, &shot.header(film, &names), |sink| {
             let mut refusal = None;
             let mut take = |mut band: Band| {
@@ -196,9 +200,8 @@ impl Pictures {
                     let size = [scene.width, scene.height];
                     annotations.draw_onto_rows(&mut band.pixels, band.first_row, size, format);
                 }
-                let channels =
-                    band.charged.iter().filter(|_| !layers.is_empty()).map(Vec::as_slice).collect();
-                match sink(Rows { pixels: &band.pixels, channels }) {
+                let Band { pixels, depths, charged, .. } = &band;
+                match sink(Rows { pixels, channels: layer::values(depths, charged) }) {
                     Ok(()) => ControlFlow::Continue(()),
                     Err(error) => {
                         refusal = Some(error);
@@ -206,7 +209,8 @@ impl Pictures {
                     }
                 }
             };
-            let stats = film.render_bands(renderer, scene, *index, part, rows_of_band(scene), &mut take);
+            let asked = (rows_of_band(scene), asked);
+            let stats = film.render_bands(renderer, scene, *index, part, asked, &mut take);
             refusal.map_or(stats, Err)
         })
         .map_err(fatal)
@@ -222,7 +226,8 @@ impl Pictures {
             false => film.render(renderer, &scene, shot.index, part)?.stats,
             true => {
                 let mut drop_it = |_: Band| ControlFlow::Continue(());
-                film.render_bands(renderer, &scene, shot.index, part, rows_of_band(&scene), &mut drop_it)?
+                let asked = (rows_of_band(&scene), BandLayers::default());
+                film.render_bands(renderer, &scene, shot.index, part, asked, &mut drop_it)?
             }
         };
         Ok(stats.evaluations.full)
@@ -248,6 +253,15 @@ impl Shot {
             channels,
         }
     }
+}
+
+/// The part of the work that is for colours, and that for depths where there are any.
+fn in_two(part: Range<f32>, has_depths: bool) -> (Range<f32>, Option<Range<f32>>) {
+    if !has_depths {
+        return (part, None);
+    }
+    let middle = 0.5 * (part.start + part.end);
+    (part.start..middle, Some(middle..part.end))
 }
 
 /// What is charged to each pixel.

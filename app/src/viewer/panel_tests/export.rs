@@ -2,6 +2,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 use super::{frame_arrives, panel, session_over};
+use crate::export::Layer;
 use crate::export::video::VideoFormat;
 use crate::image_file::Format;
 use crate::viewer::exports::{Exports, Plan, State};
@@ -51,12 +52,15 @@ fn what_is_clicked_is_what_is_exported() {
     let mut harness = form();
     click(&mut harness, "EXR");
     assert_eq!(harness.state().0.format, Format::Exr);
+    assert!(plan(&harness).layers.is_empty(), "none unless asked for");
     click(&mut harness, "Predicted error of each pixel");
+    assert_eq!(plan(&harness).layers, [Layer::PredictedError]);
+    click(&mut harness, "Depth of each pixel");
     click(&mut harness, "view.json");
     click(&mut harness, "Keep pictures that are done");
     let sequence = plan(&harness);
     assert_eq!(sequence.path, std::path::Path::new("out/frame-{:04}.exr"));
-    assert_eq!(sequence.layers.len(), 1);
+    assert_eq!(sequence.layers, [Layer::Depth, Layer::PredictedError]);
     assert_eq!(sequence.view_file.as_deref(), Some("out/frame.view.json".as_ref()));
     assert!(!sequence.resumes);
 
@@ -76,6 +80,18 @@ fn what_is_clicked_is_what_is_exported() {
     assert_eq!((picture.first, picture.last), (7, 7));
     assert!(picture.in_memory.is_some(), "it is not read again");
     assert_eq!(picture.path, std::path::Path::new("out/sphcast-0007.exr"));
+}
+
+#[test]
+fn the_depth_says_what_it_is_and_what_it_costs() {
+    let mut harness = form();
+    assert!(harness.query_by_label("Depth of each pixel").is_none(), "a PNG holds none");
+    click(&mut harness, "EXR");
+    harness.get_by_label("Depth of each pixel").hover();
+    harness.run();
+    for said in ["As channel Z", "along the camera's axis", "once more in full"] {
+        assert!(harness.query_by_label_contains(said).is_some(), "{said}");
+    }
 }
 
 #[test]

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use egui::{DragValue, RichText, TextEdit, Ui};
 
-use crate::export::Layer;
 use crate::export::video::{MISSING, USUAL_RATE, VideoFormat};
 use crate::image_file::Format;
 use crate::viewer::exports::{Exports, Plan};
@@ -12,6 +11,7 @@ use crate::viewer::session::Session;
 use crate::viewer::widgets::Areas;
 use crate::viewer::{theme, widgets};
 
+use super::export_layers::LayerChoice;
 use super::export_queue;
 use super::image::SIZES;
 
@@ -34,7 +34,8 @@ pub struct ExportForm {
     pub every: usize,
     pub size: [u32; 2],
     pub format: Format,
-    pub predicted_error: bool,
+    /// What an EXR holds beside its colour.
+    pub layers: LayerChoice,
     pub video: VideoFormat,
     pub rate: f64,
     pub folder: String,
@@ -66,7 +67,7 @@ impl ExportForm {
             every: 1,
             size: [image.width, image.height].map(|side| side.clamp(1, LARGEST)),
             format: Format::Png,
-            predicted_error: false,
+            layers: LayerChoice::default(),
             video: VideoFormat::Mp4,
             rate: USUAL_RATE,
             folder: folder.display().to_string(),
@@ -126,7 +127,7 @@ impl ExportForm {
         let beside = |wanted: bool, ending| wanted.then(|| path.with_file_name(format!("{stem}.{ending}")));
         let is_exr = self.kind != Kind::Video && self.format == Format::Exr;
         plan.rate = self.rate;
-        plan.layers = if is_exr && self.predicted_error { vec![Layer::PredictedError] } else { Vec::new() };
+        plan.layers = if is_exr { self.layers.chosen() } else { Vec::new() };
         plan.view_file = beside(self.view_beside, "view.json");
         plan.stats_file = beside(self.stats_beside, "stats.json");
         plan.resumes = self.keep_done && self.kind == Kind::Sequence;
@@ -233,10 +234,7 @@ impl ExportForm {
         ];
         widgets::row(ui, "Format", |ui| widgets::choice(ui, &mut self.format, &formats));
         if self.format == Format::Exr {
-            widgets::row(ui, "", |ui| {
-                ui.checkbox(&mut self.predicted_error, "Predicted error of each pixel")
-                    .on_hover_text("As channel predicted_error: how far it may be from full sampling");
-            });
+            self.layers.show(ui);
         }
     }
 

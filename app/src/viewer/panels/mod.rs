@@ -11,6 +11,7 @@ mod colour_menu;
 pub mod distance;
 pub mod error_legend;
 pub mod export;
+mod export_layers;
 pub mod export_queue;
 pub mod filters;
 pub mod help;

@@ -52,8 +52,8 @@ fn cast_coarsely(layer: u32, first: u32, end: u32, samples: Samples, slope: vec2
     // Of fewer than four samples, the last is repeated.
     add_to_tally(0u, count.x / 4u * min(samples.count, 4u));
     let scale = depths.x * sqrt(direction_squared) * frame.path_scale;
-    let near = composite_four(vec4(0.0), w0, q0, reference, samples.spans[0] * scale);
-    return composite_four(near, w1, q1, reference, samples.spans[1] * scale);
+    let near = composite_four(vec4(0.0), w0, q0, reference, samples.spans[0] * scale, samples.depths[0]);
+    return composite_four(near, w1, q1, reference, samples.spans[1] * scale, samples.depths[1]);
 }
 
 @compute @workgroup_size(LANES)

@@ -1,6 +1,6 @@
 // Full sampling: a workgroup takes a bundle of 8 × 8 rays from front to back, a lane one ray.
 
-// Premultiplied linear RGB and transparency, 64 pixels a bundle.
+// Premultiplied linear RGB, or what depth.wgsl has in its place, and transparency, 64 pixels a bundle.
 @group(0) @binding(14) var<storage, read_write> pixels: array<vec4<f32>>;
 
 var<workgroup> open_rays: atomic<u32>;
@@ -27,13 +27,13 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     for (var layer = next_filled(index, 0u); layer < tile.layers; layer = next_filled(index, layer + 1u)) {
         let place = index * tile.layers + layer;
         let cell = cast_cell(layer, first_of_cell(place), cells[place], axis, from_axis, ALL_BRICKS, lane);
-        ray.colour += ray.transparency * cell.rgb;
+        ray.colour += ray.transparency * seen_in_cell(cell, layer);
         ray.transparency *= 1.0 - cell.a;
         if lane == 0u {
             atomicStore(&open_rays, 0u);
         }
         workgroupBarrier();
-        if in_picture && ray.transparency > OPAQUE {
+        if in_picture && is_open(ray) {
             atomicAdd(&open_rays, 1u);
         }
         if lane == 0u {

@@ -26,12 +26,16 @@ pub(crate) struct Cast {
     shaders: Shaders,
     /// For each kernel; for two fields once that was asked for.
     samplers: BTreeMap<(u32, Fields), Samplers>,
+    /// What casts depths in place of colours, for each kernel and so many fields once that was asked for.
+    depth: BTreeMap<(u32, Fields), Pipeline>,
     /// One a kernel. The paper's bound, whose cells it samples, knows one field.
     coarse: Vec<Pipeline>,
     composite: Pipeline,
     pub crowds: Crowds,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
+    /// What `depth.wgsl` has of each pixel in the same places.
+    pub depths: Buffer,
     /// Colour and opacity of each ray in a sampled cell, 64 a cell.
     segments: Buffer,
 }
@@ -54,9 +58,11 @@ impl Cast {
             samplers: Kernel::ALL.map(one_field).into(),
             coarse: Kernel::ALL.map(|kernel| shaders.coarse(gpu, kernel)).into(),
             composite: shaders.composite(gpu),
+            depth: BTreeMap::new(),
             shaders,
             crowds: Crowds::new(gpu),
             pixels: Buffer::storage(gpu, "pixels", 16),
+            depths: Buffer::storage(gpu, "depths of pixels", 16),
             segments: Buffer::storage(gpu, "segments of rays", 16),
         }
     }
@@ -75,6 +81,17 @@ impl Cast {
     pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, fields: Fields) {
         let shaders = &self.shaders;
         self.samplers.entry((kernel.code(), fields)).or_insert_with(|| shaders.samplers(gpu, kernel, fields));
+    }
+
+    /// Has the pipeline for depths with this kernel and so many fields.
+    pub(crate) fn prepare_depth(&mut self, gpu: &Gpu, kernel: Kernel, fields: Fields) {
+        let shaders = &self.shaders;
+        self.depth.entry((kernel.code(), fields)).or_insert_with(|| shaders.depth(gpu, kernel, fields));
+    }
+
+    /// Makes room for the depths of `tile`.
+    pub(crate) fn reserve_depths(&mut self, gpu: &Gpu, tile: &Tile) -> Result<(), RenderError> {
+        self.depths.reserve(gpu, tile.bundles() * 64)
     }
 
     /// Those for `scene`, which are prepared.
@@ -111,6 +128,22 @@ impl Cast {
         self.samplers(scene).full.dispatch(gpu, pass, &resources, bundles);
     }
 
+    /// Records full sampling of the depths of `bundles` bundles, for which all is prepared. `shared`: resources
+    /// for [`BUNDLE_BINDINGS`](super::shared::BUNDLE_BINDINGS).
+    pub(crate) fn record_depths(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::ComputePass,
+        scene: &Scene,
+        shared: &[wgpu::BindingResource],
+        bundles: u64,
+    ) {
+        let [portions, sums] = self.crowds.buffers();
+        let resources = with(shared, &[portions, sums, &self.depths]);
+        let pipeline = &self.depth[&(scene.kernel.code(), scene.quantity.fields())];
+        pipeline.dispatch(gpu, pass, &resources, bundles);
+    }
+
     /// Records the sampling of what `adapt` left of `bundles` bundles, and puts their cells together.
     #[expect(clippy::too_many_arguments, reason = "one for each thing the shaders read")]
     pub(crate) fn record_adaptive(
@@ -145,7 +178,7 @@ impl Cast {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes() + self.segments.bytes() + self.crowds.bytes()
+        self.pixels.bytes() + self.depths.bytes() + self.segments.bytes() + self.crowds.bytes()
     }
 }
 

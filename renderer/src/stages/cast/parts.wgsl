@@ -54,7 +54,7 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
     }
     if unit.brick_layer < LEVEL_2 {
         let paths = frame.slab_depth[unit.brick_layer] * scale;
-        let strand = composite_four(vec4(0.0), unit.weights, unit.charges, reference, paths);
+        let strand = composite_four(vec4(0.0), unit.weights, unit.charges, reference, paths, unit.depths);
         strands[4u * unit.ray + unit.brick_layer] = strand;
         return;
     }
@@ -64,7 +64,8 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
         if is_chosen(coarse, unit.ray / 4u, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
             let charge = charge_at(unit.charges, i);
-            strands[4u * unit.ray + i] = composite(vec4(0.0), unit.weights[i], charge, reference, path);
+            strands[4u * unit.ray + i] =
+                composite(vec4(0.0), unit.weights[i], charge, reference, path, unit.depths[i]);
         }
     }
 }
@@ -112,7 +113,9 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
         let scale = depth * length(vec3(axis + ray_from_axis(ray), 1.0)) * frame.path_scale;
         let charges = quantities_on_slope(cell, ray, brick_layer);
         let paths = frame.slab_depth[brick_layer] * scale;
-        strands[4u * ray + brick_layer] = composite_four(vec4(0.0), vec4(1.0), charges, Quantity(), paths);
+        let depths = frame.sample_offset[brick_layer];
+        strands[4u * ray + brick_layer] =
+            composite_four(vec4(0.0), vec4(1.0), charges, Quantity(), paths, depths);
     }
 }
 

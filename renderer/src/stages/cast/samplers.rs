@@ -6,6 +6,8 @@ use super::super::shared::{
 use crate::gpu::{Access, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
 
+const COLOUR_WGSL: &str = include_str!("colour.wgsl");
+const FULL_WGSL: &str = include_str!("full.wgsl");
 const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
 const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
 const WORK_WGSL: &str = include_str!("work.wgsl");
@@ -37,30 +39,39 @@ impl Shaders {
             self.pipeline(gpu, kernel, fields, entry_point, sources, bindings)
         };
         let work = |entry_point, source| {
-            let sources = [HULL_WGSL, fields.bounds_wgsl(), WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, source];
+            let bounds = fields.bounds_wgsl();
+            let sources = [HULL_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
             pipeline(entry_point, &sources, &WORK_BINDINGS)
         };
         Samplers {
             portions: pipeline(
                 "sum_portions",
-                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
+                &[PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
                 &[Read, Write],
             ),
-            full: pipeline(
-                "cast_rays",
-                &[PORTIONS_WGSL, SAMPLES_WGSL, include_str!("full.wgsl")],
-                &[Read, Write, Write],
-            ),
+            full: self.full(gpu, kernel, fields, COLOUR_WGSL),
             wholes: work("sample_wholes", include_str!("whole.wgsl")),
             parts: work("sample_parts", include_str!("parts.wgsl")),
         }
     }
 
+    /// What samples in full, and composites depths in place of colours.
+    pub fn depth(&self, gpu: &Gpu, kernel: Kernel, fields: Fields) -> Pipeline {
+        self.full(gpu, kernel, fields, include_str!("depth.wgsl"))
+    }
+
+    /// What samples in full, and composites what `seen` says.
+    fn full(&self, gpu: &Gpu, kernel: Kernel, fields: Fields, seen: &str) -> Pipeline {
+        use Access::{Read, Write};
+        let sources = [PORTIONS_WGSL, seen, SAMPLES_WGSL, FULL_WGSL];
+        self.pipeline(gpu, kernel, fields, "cast_rays", &sources, &[Read, Write, Write])
+    }
+
     /// What samples cells more coarsely along the rays.
     pub fn coarse(&self, gpu: &Gpu, kernel: Kernel) -> Pipeline {
         let fields = Fields::One;
-        let source = include_str!("coarse.wgsl");
-        let sources = [HULL_WGSL, fields.bounds_wgsl(), WORK_WGSL, PORTIONS_WGSL, SAMPLES_WGSL, source];
+        let (bounds, source) = (fields.bounds_wgsl(), include_str!("coarse.wgsl"));
+        let sources = [HULL_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
         self.pipeline(gpu, kernel, fields, "sample_coarsely", &sources, &WORK_BINDINGS)
     }
 

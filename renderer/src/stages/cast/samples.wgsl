@@ -61,15 +61,18 @@ fn kernel_on(depths: vec4<f32>, arc: Arc) -> vec4<f32> {
     return kernel(max(arc.top - arc.bend * t * t, vec4(0.0)));
 }
 
-// One more sample behind the others: I += T·(1 − t)·c, T *= t (contract, section 1). `opacity` is
-// 1 − T of the cell's samples so far: kept instead of T, it loses nothing where it is tiny.
-fn composite(cell: vec4<f32>, weight: f32, charge: Quantity, reference: Quantity, path: f32) -> vec4<f32> {
+// One more sample behind the others: I += T·(1 − t)·c, T *= t (contract, section 1). The last channel is
+// 1 − T of the cell's samples so far: kept instead of T, it loses nothing where it is tiny. What c is,
+// colour.wgsl and depth.wgsl say.
+fn composite(
+    cell: vec4<f32>, weight: f32, charge: Quantity, reference: Quantity, path: f32, depth: f32,
+) -> vec4<f32> {
     if weight <= 0.0 {
         return cell;
     }
     let sample = shade_of(reference + charge / weight);
     let share = (1.0 - cell.w) * path_opacity(sample.w, path);
-    return cell + share * vec4(sample.rgb, 1.0);
+    return cell + share * vec4(seen_of(sample, depth), 1.0);
 }
 
 fn composite_four(
@@ -78,11 +81,12 @@ fn composite_four(
     charges: Charges,
     reference: Quantity,
     paths: vec4<f32>,
+    depths: vec4<f32>,
 ) -> vec4<f32> {
-    var result = composite(cell, weights.x, charge_at(charges, 0u), reference, paths.x);
-    result = composite(result, weights.y, charge_at(charges, 1u), reference, paths.y);
-    result = composite(result, weights.z, charge_at(charges, 2u), reference, paths.z);
-    return composite(result, weights.w, charge_at(charges, 3u), reference, paths.w);
+    var result = composite(cell, weights.x, charge_at(charges, 0u), reference, paths.x, depths.x);
+    result = composite(result, weights.y, charge_at(charges, 1u), reference, paths.y, depths.y);
+    result = composite(result, weights.z, charge_at(charges, 2u), reference, paths.z, depths.z);
+    return composite(result, weights.w, charge_at(charges, 3u), reference, paths.w, depths.w);
 }
 
 // All four bricks of a ray, sampled at every slice.
@@ -143,7 +147,7 @@ fn sum_particles(
     return Sums(w0, w1, w2, w3, q0, q1, q2, q3, w_coarse, q_coarse);
 }
 
-// Colour and opacity of a ray's stretch through one cell, from its particles or, where it is crowded, from
+// What is seen of a ray's stretch through one cell, and its opacity, from its particles or, where it is crowded, from
 // the sums of its portions. The arguments are those of `sum_particles`.
 fn cast_cell(
     layer: u32, first: u32, end: u32, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
@@ -215,12 +219,13 @@ fn pass_brick(
     if by_slope || is_sampled(sampled, brick_layer) {
         let w = select(weights, vec4(1.0), by_slope);
         let q = select_charges(charges, relative_to(on_slope[brick_layer], reference), by_slope);
-        return composite_four(cell, w, q, reference, paths);
+        return composite_four(cell, w, q, reference, paths, frame.sample_offset[brick_layer]);
     }
     if is_between {
         let weight = coarse.weights[brick_layer];
         let charge = charge_at(coarse.charges, brick_layer);
-        return composite(cell, weight, charge, reference, dot(paths, vec4(1.0)));
+        let depth = level_2_offsets()[brick_layer];
+        return composite(cell, weight, charge, reference, dot(paths, vec4(1.0)), depth);
     }
     return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];
 }
