@@ -20,7 +20,7 @@ impl Renderer {
     /// samples of its ray at full sampling: width·height depths in the run's unit of length, between near and
     /// far, row after row from the top; +∞ where nothing is seen. z is measured along the camera's axis.
     ///
-    /// Rounding moves them by no more than it moves colours. Measured where the opacity is above 10⁻³: by up to
+    /// Rounding moves them as it moves colours. Measured where the opacity is above 10⁻³: by up to
     /// 10⁻⁶ of themselves in smooth scenes, and by more than 10⁻⁵ in fewer than one pixel in a thousand, where
     /// a sample lies on the very edge of a support or at a step of the transfer function. What is seen far behind
     /// something opaque that is close to the eye may move them by 3·10⁻⁷ of far.
