@@ -85,6 +85,7 @@ fn make_all() {
         for kernel in Kernel::ALL {
             adapt.prepare(&gpu, kernel, Without::Nothing, fields);
             cast.prepare(&gpu, kernel, fields);
+            cast.prepare_depth(&gpu, kernel, fields);
             object_space::pipeline(&gpu, kernel, fields);
         }
     }
