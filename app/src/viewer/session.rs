@@ -32,7 +32,7 @@ use crate::viewer::render_thread::budget::Budget;
 use cameras::Cameras;
 pub use costs::{Costs, Entry, Stage};
 use history::History;
-pub use looking::{Looking, Tool};
+pub use looking::{End, Looking, Tool};
 pub use picture::PictureFacts;
 pub use range::{RangeSource, Ranges, Survey};
 use reading::GLANCE;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::{Desk, Done};
 use crate::viewer::analysis::field_ranges::FieldRanges;
 use crate::viewer::analysis::statistics::Answer;
-use crate::viewer::inspect::picked::Located;
 use crate::viewer::inspect::pointing::Pointed;
+use crate::viewer::inspect::tracked::Located;
 
 /// What is at work.
 #[derive(Default)]
@@ -78,7 +78,7 @@ impl Desk {
         self.session.take_pointed(pointed);
     }
 
-    pub(super) fn take_located(&mut self, located: Located) {
+    pub(super) fn take_located(&mut self, located: &Located) {
         self.inquiries.search = false;
         self.session.take_located(located);
     }

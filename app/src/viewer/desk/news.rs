@@ -12,8 +12,8 @@ use crate::viewer::analysis::distribution::Analysis;
 use crate::viewer::analysis::field_ranges::FieldRanges;
 use crate::viewer::analysis::statistics::Answer;
 use crate::viewer::dialogs;
-use crate::viewer::inspect::picked::Located;
 use crate::viewer::inspect::pointing::Pointed;
+use crate::viewer::inspect::tracked::Located;
 use crate::viewer::kept::LastSession;
 use crate::viewer::render_thread::Report;
 
@@ -91,7 +91,7 @@ impl Desk {
                     }
                 }
                 Done::Pointed(pointed) => self.take_pointed(*pointed),
-                Done::Located(located) => self.take_located(located),
+                Done::Located(located) => self.take_located(&located),
                 Done::Statistics(answer) => self.take_statistics(*answer),
             }
         }

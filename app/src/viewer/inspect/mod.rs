@@ -2,7 +2,7 @@
 //! far the picture is from full sampling.
 
 pub mod measurement;
-pub mod picked;
 pub mod pointer;
 pub mod pointing;
 pub mod probe;
+pub mod tracked;

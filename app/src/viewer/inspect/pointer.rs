@@ -7,9 +7,9 @@ use egui::{
 use glam::DVec3;
 
 use crate::projection::Projection;
-use crate::viewer::inspect::picked::Mark;
 use crate::viewer::inspect::pointing::{Pointed, Seen};
-use crate::viewer::session::{Session, Tool};
+use crate::viewer::inspect::tracked::Mark;
+use crate::viewer::session::{End, Session, Tool};
 use crate::viewer::{theme, widgets};
 
 /// Of the ring around a particle, in points.
@@ -44,7 +44,7 @@ pub fn show(ui: &Ui, picture: Rect, session: &Session) {
     let pointed = looking.pointed.as_ref().filter(|_| looking.hover.is_some());
     let target = pointed.and_then(|pointed| pointed.seen.as_ref());
     distance(&over, session, target);
-    if let Some(picked) = looking.picked.as_ref().filter(|picked| !picked.lost)
+    if let Some(picked) = looking.picked.as_ref().map(|picked| &picked.particle).filter(|picked| !picked.lost)
         && let Some(at) = over.place(picked.position())
     {
         over.ring(at, RING + 2.0, theme::DARK.accent, 2.0);
@@ -110,7 +110,10 @@ fn distance(over: &Over, session: &Session, target: Option<&Seen>) {
         Some(near) if at_particles => near.position,
         _ => seen.point,
     });
-    let mut ends = looking.distance.ends.clone();
+    if looking.distance.ends.iter().any(End::is_lost) {
+        return;
+    }
+    let mut ends: Vec<DVec3> = looking.distance.ends.iter().map(End::position).collect();
     if ends.len() == 1 {
         ends.extend(next);
     }

@@ -1,21 +1,23 @@
 //! Tools that point into the picture, and their cards.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
 use egui::{Modifiers, Rect, Sense, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use glam::DVec3;
 use renderer::Stats;
 
 use super::{assert_written, fluid, panel, session_over, shown};
-use crate::viewer::inspect::picked::{Mark, Picked};
 use crate::viewer::inspect::pointer;
 use crate::viewer::inspect::pointing::Shot;
+use crate::viewer::inspect::tracked::{Mark, Tracked};
 use crate::viewer::panels::{distance, picked};
 use crate::viewer::render_thread::Report;
 use crate::viewer::render_thread::prepare::Preparation;
-use crate::viewer::session::{Session, Tool};
+use crate::viewer::session::{End, Session, Tool};
 
 /// Tells the session of a picture, with what it was drawn from.
 fn draw(session: &mut Session) {
@@ -63,7 +65,7 @@ fn hovering_tells_what_is_seen_and_a_click_picks_the_particle() {
     let nearest = pointed.seen.as_ref().expect("the block is seen").near[0];
     assert!(harness.state().looking.picked.is_none());
     click(&mut harness, [140.0, 140.0]);
-    let picked = harness.state().looking.picked.as_ref().expect("a particle");
+    let picked = &harness.state().looking.picked.as_ref().expect("a particle").particle;
     assert_eq!(
         (picked.row, picked.mark, picked.position()),
         (nearest.row, Mark::Row(nearest.row), nearest.position)
@@ -76,19 +78,23 @@ fn hovering_tells_what_is_seen_and_a_click_picks_the_particle() {
     assert_written(&harness, &["Nothing is to be seen here"]);
 }
 
+fn ends(harness: &Harness<Session>) -> Vec<DVec3> {
+    harness.state().looking.distance.ends.iter().map(End::position).collect()
+}
+
 #[test]
 fn two_clicks_measure_and_a_third_begins_anew() {
     let mut harness = picture(Tool::Measure);
     click(&mut harness, [80.0, 140.0]);
     click(&mut harness, [200.0, 150.0]);
-    let ends = harness.state().looking.distance.ends.clone();
+    let ends = ends(&harness);
     assert_eq!(ends.len(), 2);
-    assert!(ends.iter().all(|end| end.fract() == glam::DVec3::ZERO), "at particles: {ends:?}");
+    assert!(ends.iter().all(|end| end.fract() == DVec3::ZERO), "at particles: {ends:?}");
     assert!(ends[0].distance(ends[1]) >= 1.0);
     harness.state_mut().looking.distance.at_particles = false;
     click(&mut harness, [140.0, 140.0]);
-    let ends = harness.state().looking.distance.ends.clone();
-    assert!(ends.len() == 1 && ends[0].fract() != glam::DVec3::ZERO, "{ends:?}");
+    let ends = self::ends(&harness);
+    assert!(ends.len() == 1 && ends[0].fract() != DVec3::ZERO, "{ends:?}");
 }
 
 #[test]
@@ -108,7 +114,7 @@ fn the_card_of_a_particle_has_all_its_values() {
     draw(&mut session);
     let (index, frame) = session.frame().cloned().unwrap();
     // x = 3, y = 2, z = 1: density 1020, velocity (0.25, 0, −0.25).
-    session.looking.picked = Some(Picked::new(frame, index, 3 + 4 * 2 + 16));
+    session.looking.pick(Tracked::new(frame, index, 3 + 4 * 2 + 16));
     let mut harness = panel(session, |ui, session| {
         if session.looking.picked.is_some() {
             picked::card(ui, session);
@@ -119,17 +125,16 @@ fn the_card_of_a_particle_has_all_its_values() {
     harness.run();
     let session = harness.state();
     assert!(session.looking.picked.as_ref().unwrap().in_the_middle);
-    assert_eq!(session.complete_view().camera.unwrap().target, glam::DVec3::new(3.0, 2.0, 1.0));
+    assert_eq!(session.complete_view().camera.unwrap().target, DVec3::new(3.0, 2.0, 1.0));
     harness.get_by_label("Close (Escape)").click();
     harness.run();
     assert!(harness.state().looking.picked.is_none());
 }
 
-#[test]
-fn a_followed_particle_is_found_in_the_next_frame_and_the_camera_goes_along() {
-    let folder = tempfile::tempdir().unwrap();
+/// Three frames: in the second, particle 2 has gone from y = 0 to 4; in the third, it is gone.
+fn moving(folder: &Path) -> Session {
     let file = |name: &str, rows: &str| {
-        let path = folder.path().join(name);
+        let path = folder.join(name);
         std::fs::write(&path, format!("id,x,y,z,heat\n{rows}")).unwrap();
         path.to_str().unwrap().to_owned()
     };
@@ -138,34 +143,74 @@ fn a_followed_particle_is_found_in_the_next_frame_and_the_camera_goes_along() {
     let third = file("f_3.csv", "3,0,1,1,7\n1,0,0,0,5\n4,9,9,9,5\n");
     let mut session = session_over(&[&first, &second, &third]);
     draw(&mut session);
+    session
+}
+
+/// Goes to the next frame. Returns in how many searches all that is followed was looked for.
+fn go(session: &mut Session) -> usize {
+    session.step(true);
+    while session.waiting() {
+        session.poll(Instant::now());
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    let mut searches = 0;
+    while let Some(search) = session.search() {
+        session.take_located(&search.locate());
+        searches += 1;
+    }
+    searches
+}
+
+#[test]
+fn a_followed_particle_is_found_in_the_next_frame_and_the_camera_goes_along() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = moving(folder.path());
     let (index, frame) = session.frame().cloned().unwrap();
-    session.looking.picked = Some(Picked::new(frame, index, 1));
+    session.looking.pick(Tracked::new(frame, index, 1));
     session.keep_in_the_middle(true);
     let target = |session: &Session| session.complete_view().camera.unwrap().target;
-    let go = |session: &mut Session| {
-        session.step(true);
-        while session.waiting() {
-            session.poll(Instant::now());
-            std::thread::sleep(std::time::Duration::from_millis(2));
-        }
-        let search = session.search().expect("another frame");
-        session.take_located(search.locate());
-        assert!(session.search().is_none(), "once a frame");
-    };
-    go(&mut session);
-    let picked = session.looking.picked.clone().unwrap();
+    assert_eq!(go(&mut session), 1);
+    let picked = session.looking.picked.clone().unwrap().particle;
     assert_eq!((picked.index, picked.row, picked.mark, picked.lost), (1, 1, Mark::Id(2.0), false));
-    assert_eq!(target(&session), glam::DVec3::new(1.0, 4.0, 0.0));
-    go(&mut session);
-    let picked = session.looking.picked.clone().unwrap();
+    assert_eq!(target(&session), DVec3::new(1.0, 4.0, 0.0));
+    assert_eq!(go(&mut session), 1);
+    let picked = session.looking.picked.clone().unwrap().particle;
     assert!(picked.lost && picked.index == 1, "it is shown as it was last");
-    assert_eq!(target(&session), glam::DVec3::new(1.0, 4.0, 0.0));
+    assert_eq!(target(&session), DVec3::new(1.0, 4.0, 0.0));
+}
+
+#[test]
+fn a_particle_that_is_not_followed_is_forgotten_with_its_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = moving(folder.path());
+    let (index, frame) = session.frame().cloned().unwrap();
+    session.looking.pick(Tracked::new(frame, index, 1));
+    session.looking.picked.as_mut().unwrap().follow = false;
+    assert_eq!(go(&mut session), 0);
+    assert!(session.looking.picked.is_none());
+}
+
+#[test]
+fn the_ends_of_a_distance_go_where_their_particles_go() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = moving(folder.path());
+    let (index, frame) = session.frame().cloned().unwrap();
+    let end = |row| End::Particle(Tracked::new(Arc::clone(&frame), index, row));
+    session.looking.distance.ends = vec![end(0), end(1)];
+    assert_eq!(go(&mut session), 2);
+    let mut harness = panel(session, distance::card);
+    assert_eq!(ends(&harness), [DVec3::ZERO, DVec3::new(1.0, 4.0, 0.0)]);
+    assert_written(&harness, &["4.123", "1", "4", "0"]);
+    go(harness.state_mut());
+    harness.run();
+    assert_written(&harness, &["This frame lacks a particle that the distance was measured from."]);
 }
 
 #[test]
 fn the_card_of_a_distance_tells_it_along_the_axes() {
     let mut session = fluid();
-    session.looking.distance.ends = vec![glam::DVec3::new(1.0, 2.0, 3.0), glam::DVec3::new(1.0, 5.0, -1.0)];
+    session.looking.distance.ends =
+        [[1.0, 2.0, 3.0], [1.0, 5.0, -1.0]].map(|place| End::Place(place.into())).into();
     let mut harness = panel(session, distance::card);
     assert_written(&harness, &["5", "0", "3", "-4"]);
     harness.get_by_label("Places").click();

@@ -3,7 +3,7 @@
 use egui::{Align, Layout, Rect, RichText, Ui, vec2};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::session::{Session, Tool};
+use crate::viewer::session::{End, Session, Tool};
 use crate::viewer::theme;
 use crate::viewer::widgets;
 
@@ -31,13 +31,20 @@ pub fn card(ui: &mut Ui, session: &mut Session) {
         .inner;
     let distance = &mut session.looking.distance;
     let choices = [
-        (true, "Particles", "From the particle nearest to what is seen under the mouse"),
-        (false, "Places", "From what is seen under the mouse itself"),
+        (
+            true,
+            "Particles",
+            "From the particle nearest to what is seen under the mouse, wherever it goes in other frames",
+        ),
+        (false, "Places", "From what is seen under the mouse itself; the place stays where it is"),
     ];
     ui.horizontal(|ui| widgets::choice(ui, &mut distance.at_particles, &choices));
-    match distance.ends[..] {
+    match &distance.ends[..] {
+        ends if ends.iter().any(End::is_lost) => {
+            hint(ui, "This frame lacks a particle that the distance was measured from.");
+        }
         [from, to] => {
-            let way = to - from;
+            let way = to.position() - from.position();
             widgets::fact(ui, "length", widgets::short(way.length()));
             for (axis, x) in ["dx", "dy", "dz"].into_iter().zip(way.to_array()) {
                 widgets::fact(ui, axis, widgets::on_axis(x, way.length()));

@@ -3,7 +3,7 @@
 use egui::{Align, Layout, Pos2, Rect, RichText, ScrollArea, Ui, pos2};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::inspect::picked::{Mark, Picked};
+use crate::viewer::inspect::tracked::{Mark, Tracked};
 use crate::viewer::session::Session;
 use crate::viewer::theme;
 use crate::viewer::widgets;
@@ -28,7 +28,7 @@ pub fn show(ui: &Ui, session: &mut Session, picture: Rect) {
 fn corner(session: &Session, picture: Rect) -> Pos2 {
     let size = [picture.width(), picture.height()].map(f64::from);
     let picked = session.looking.picked.as_ref();
-    let place = picked.and_then(|picked| session.projection(size)?.project(picked.position()));
+    let place = picked.and_then(|picked| session.projection(size)?.project(picked.particle.position()));
     let left = picture.left() + MARGIN;
     // Beside the colour bar, which stands at the right edge.
     let right = (picture.right() - WIDTH - BESIDE_BAR).max(left);
@@ -40,14 +40,14 @@ fn corner(session: &Session, picture: Rect) -> Pos2 {
 pub fn card(ui: &mut Ui, session: &mut Session) {
     let scale = session.scene_bounds().map_or(0.0, |scene| scene.diagonal());
     let Some(picked) = &mut session.looking.picked else { return };
-    let open = header(ui, picked);
-    if picked.lost {
+    let open = header(ui, &picked.particle);
+    if picked.particle.lost {
         let text = "This frame has no such particle; shown as it was last.";
         ui.label(RichText::new(text).small().color(theme::colours().warning));
     }
-    ScrollArea::vertical().max_height(HEIGHT).show(ui, |ui| values(ui, picked, scale));
+    ScrollArea::vertical().max_height(HEIGHT).show(ui, |ui| values(ui, &picked.particle, scale));
     ui.add_space(4.0);
-    let hint = match picked.mark {
+    let hint = match picked.particle.mark {
         Mark::Id(_) => "Finds it by its id in every frame; otherwise the card closes with the frame",
         Mark::Row(_) => {
             "Takes the same row of every frame: the file has no ids, so another frame may have another particle there"
@@ -66,7 +66,7 @@ pub fn card(ui: &mut Ui, session: &mut Session) {
 }
 
 /// Title and cross. Returns whether the card stays.
-fn header(ui: &mut Ui, picked: &Picked) -> bool {
+fn header(ui: &mut Ui, picked: &Tracked) -> bool {
     let (title, known) = match picked.mark {
         Mark::Id(id) => (format!("Particle {id}"), "known by its id"),
         Mark::Row(row) => (format!("Row {row}"), "known by its row: the file has no ids"),
@@ -85,7 +85,7 @@ fn header(ui: &mut Ui, picked: &Picked) -> bool {
     open
 }
 
-fn values(ui: &mut Ui, picked: &Picked, scale: f64) {
+fn values(ui: &mut Ui, picked: &Tracked, scale: f64) {
     let frame = &picked.frame;
     for (axis, x) in ["x", "y", "z"].into_iter().zip(picked.position().to_array()) {
         widgets::fact(ui, axis, widgets::on_scale(x, scale));

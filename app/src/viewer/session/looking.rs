@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Session;
-use crate::viewer::inspect::picked::{Located, Picked, Search};
 use crate::viewer::inspect::pointing::{Place, Pointed, Question, Shot};
+use crate::viewer::inspect::tracked::{Located, Search, Tracked};
 
 /// What a click in the picture does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,11 +27,43 @@ impl Tool {
     }
 }
 
-/// A distance: up to two ends.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Distance {
+/// A particle that was picked.
+#[derive(Clone)]
+pub struct Picked {
+    pub particle: Tracked,
+    /// Whether it is looked for in other frames; otherwise it is forgotten with its own.
+    pub follow: bool,
+    /// Whether the camera goes along with it.
+    pub in_the_middle: bool,
+}
+
+/// An end of a distance.
+#[derive(Clone)]
+pub enum End {
     /// In the unit of the run.
-    pub ends: Vec<DVec3>,
+    Place(DVec3),
+    /// It goes where the particle goes.
+    Particle(Tracked),
+}
+
+impl End {
+    /// In the unit of the run.
+    pub fn position(&self) -> DVec3 {
+        match self {
+            End::Place(place) => *place,
+            End::Particle(particle) => particle.position(),
+        }
+    }
+
+    /// Whether its particle is not in the frame in view.
+    pub fn is_lost(&self) -> bool {
+        matches!(self, End::Particle(particle) if particle.lost)
+    }
+}
+
+/// A distance: up to two ends.
+pub struct Distance {
+    pub ends: Vec<End>,
     /// Whether ends are at particles, or wherever something is seen.
     pub at_particles: bool,
 }
@@ -57,11 +89,25 @@ impl Default for Distance {
 }
 
 impl Distance {
-    fn add(&mut self, end: DVec3) {
+    fn add(&mut self, end: End) {
         if self.ends.len() > 1 {
             self.ends.clear();
         }
         self.ends.push(end);
+    }
+
+    fn particles(&self) -> impl Iterator<Item = &Tracked> {
+        self.ends.iter().filter_map(|end| match end {
+            End::Particle(particle) => Some(particle),
+            End::Place(_) => None,
+        })
+    }
+
+    fn particles_mut(&mut self) -> impl Iterator<Item = &mut Tracked> {
+        self.ends.iter_mut().filter_map(|end| match end {
+            End::Particle(particle) => Some(particle),
+            End::Place(_) => None,
+        })
     }
 }
 
@@ -88,6 +134,10 @@ impl Looking {
 
     pub fn set_shot(&mut self, shot: Option<Shot>) {
         self.shot = shot;
+    }
+
+    pub fn pick(&mut self, particle: Tracked) {
+        self.picked = Some(Picked { particle, follow: true, in_the_middle: false });
     }
 
     pub fn click(&mut self, place: Place) {
@@ -143,14 +193,18 @@ impl Session {
             looking.click = None;
             let nearest =
                 pointed.seen.as_ref().and_then(|seen| seen.near.first().map(|near| (seen.point, near)));
+            let Shot { frame, index, .. } = &pointed.shot;
+            let particle = |row| Tracked::new(Arc::clone(frame), *index, row);
             match (looking.tool, nearest) {
                 (Some(Tool::Pick), Some((_, near))) => {
-                    let Shot { frame, index, .. } = &pointed.shot;
-                    looking.picked = Some(Picked::new(Arc::clone(frame), *index, near.row));
+                    looking.pick(particle(near.row));
                     self.log(format!("picked row={}", near.row));
                 }
                 (Some(Tool::Measure), Some((point, near))) => {
-                    looking.distance.add(if looking.distance.at_particles { near.position } else { point });
+                    let at_particles = looking.distance.at_particles;
+                    let end =
+                        if at_particles { End::Particle(particle(near.row)) } else { End::Place(point) };
+                    looking.distance.add(end);
                     self.log("measured an end");
                 }
                 (Some(Tool::Pick | Tool::Measure), None) => self.log("nothing there"),
@@ -160,18 +214,16 @@ impl Session {
         self.looking.pointed = Some(pointed);
     }
 
-    /// Where the picked particle is in the frame in view, where that is not known.
+    /// A particle that was picked or measured from, and is to be looked for in the frame in view.
     pub fn search(&mut self) -> Option<Search> {
         let (index, frame) = self.frame.as_ref()?;
-        let picked = self.looking.picked.as_ref()?;
-        if Arc::ptr_eq(&picked.looked_through, frame) {
-            return None;
+        let Looking { picked, distance, .. } = &mut self.looking;
+        let left = |picked: &Picked| !picked.follow && picked.particle.search(*index, frame).is_some();
+        if picked.as_ref().is_some_and(left) {
+            *picked = None;
         }
-        if !picked.follow {
-            self.looking.picked = None;
-            return None;
-        }
-        Some(Search { frame: Arc::clone(frame), index: *index, mark: picked.mark })
+        let picked = picked.iter().map(|picked| &picked.particle);
+        picked.chain(distance.particles()).find_map(|particle| particle.search(*index, frame))
     }
 
     /// Puts the picked particle in the middle of the picture, and keeps it there, or lets it go.
@@ -179,23 +231,20 @@ impl Session {
         let Some(picked) = &mut self.looking.picked else { return };
         picked.in_the_middle = keep;
         if let Some(camera) = self.camera.as_mut().filter(|_| keep) {
-            camera.look_at(picked.position());
+            camera.look_at(picked.particle.position());
         }
     }
 
-    /// Takes where the picked particle went, and takes the camera along where that is wanted.
-    pub fn take_located(&mut self, located: Located) {
-        let Located { search: Search { frame, index, mark }, row } = located;
-        let Some(picked) = self.looking.picked.as_mut().filter(|picked| picked.mark == mark) else { return };
-        let before = picked.position();
-        picked.looked_through = Arc::clone(&frame);
-        picked.lost = row.is_none();
-        if let Some(row) = row {
-            (picked.frame, picked.index, picked.row) = (frame, index, row);
-            let way = picked.position() - before;
-            if let Some(camera) = self.camera.as_mut().filter(|_| picked.in_the_middle) {
-                camera.shift(way);
-            }
+    /// Takes where a particle went, and takes the camera along where that is wanted.
+    pub fn take_located(&mut self, located: &Located) {
+        let Looking { picked, distance, .. } = &mut self.looking;
+        distance.particles_mut().for_each(|particle| particle.take(located));
+        let Some(picked) = picked else { return };
+        let before = picked.particle.position();
+        picked.particle.take(located);
+        let way = picked.particle.position() - before;
+        if let Some(camera) = self.camera.as_mut().filter(|_| picked.in_the_middle) {
+            camera.shift(way);
         }
     }
 }

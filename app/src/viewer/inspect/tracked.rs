@@ -1,4 +1,4 @@
-//! A particle that was picked, and how it is found again in other frames.
+//! A particle that is found again in other frames.
 
 use std::sync::Arc;
 
@@ -7,20 +7,16 @@ use rayon::prelude::*;
 
 use crate::frames::{Field, Frame};
 
-/// A particle of the frame in view, or of the one before it while the next is looked through.
+/// A particle as it is in the frame in view, or as it was in the last one that had it.
 #[derive(Clone)]
-pub struct Picked {
+pub struct Tracked {
     pub frame: Arc<Frame>,
     /// Which frame of the sequence that is.
     pub index: usize,
     pub row: usize,
     pub mark: Mark,
-    /// Whether it is looked for in other frames; otherwise it is forgotten with its own.
-    pub follow: bool,
-    /// Whether the camera goes along with it.
-    pub in_the_middle: bool,
     /// The frame that was last looked through, and whether it lacks the particle.
-    pub looked_through: Arc<Frame>,
+    looked_through: Arc<Frame>,
     pub lost: bool,
 }
 
@@ -45,25 +41,35 @@ pub struct Located {
     pub row: Option<usize>,
 }
 
-impl Picked {
-    pub fn new(frame: Arc<Frame>, index: usize, row: usize) -> Picked {
+impl Tracked {
+    pub fn new(frame: Arc<Frame>, index: usize, row: usize) -> Tracked {
         let id = ids(&frame).map(|ids| ids.column.get(row, 0)).filter(|id| id.is_finite());
         let mark = id.map_or(Mark::Row(row), Mark::Id);
-        Picked {
-            looked_through: Arc::clone(&frame),
-            frame,
-            index,
-            row,
-            mark,
-            follow: true,
-            in_the_middle: false,
-            lost: false,
-        }
+        Tracked { looked_through: Arc::clone(&frame), frame, index, row, mark, lost: false }
     }
 
     /// In the unit of the run.
     pub fn position(&self) -> DVec3 {
         DVec3::from_array(self.frame.position(self.row))
+    }
+
+    /// What is to be looked for in `frame`, where that was not done yet.
+    pub fn search(&self, index: usize, frame: &Arc<Frame>) -> Option<Search> {
+        let known = Arc::ptr_eq(&self.looked_through, frame);
+        (!known).then(|| Search { frame: Arc::clone(frame), index, mark: self.mark })
+    }
+
+    /// Takes in what was found, where that is about this particle.
+    pub fn take(&mut self, located: &Located) {
+        let Located { search: Search { frame, index, mark }, row } = located;
+        if *mark != self.mark {
+            return;
+        }
+        self.looked_through = Arc::clone(frame);
+        self.lost = row.is_none();
+        if let Some(row) = *row {
+            (self.frame, self.index, self.row) = (Arc::clone(frame), *index, row);
+        }
     }
 }
 
@@ -101,23 +107,23 @@ mod tests {
         Arc::new(Frame::new(Column::new(3, positions).unwrap(), fields, Metadata::default()).unwrap())
     }
 
-    fn find(picked: &Picked, frame: &Arc<Frame>) -> Option<usize> {
-        Search { frame: Arc::clone(frame), index: 1, mark: picked.mark }.locate().row
+    fn find(tracked: &Tracked, frame: &Arc<Frame>) -> Option<usize> {
+        Search { frame: Arc::clone(frame), index: 1, mark: tracked.mark }.locate().row
     }
 
     #[test]
     fn a_particle_is_known_by_its_id_however_rows_are_sorted() {
-        let picked = Picked::new(frame(Some(&[7.0, 5.0, 9.0]), 3), 0, 1);
-        assert_eq!((picked.mark, picked.position().x), (Mark::Id(5.0), 1.0));
-        assert_eq!(find(&picked, &frame(Some(&[9.0, 8.0, 7.0, 5.0]), 4)), Some(3));
-        assert_eq!(find(&picked, &frame(Some(&[9.0, 8.0]), 2)), None);
-        assert_eq!(find(&picked, &frame(None, 9)), None, "another row is another particle");
+        let tracked = Tracked::new(frame(Some(&[7.0, 5.0, 9.0]), 3), 0, 1);
+        assert_eq!((tracked.mark, tracked.position().x), (Mark::Id(5.0), 1.0));
+        assert_eq!(find(&tracked, &frame(Some(&[9.0, 8.0, 7.0, 5.0]), 4)), Some(3));
+        assert_eq!(find(&tracked, &frame(Some(&[9.0, 8.0]), 2)), None);
+        assert_eq!(find(&tracked, &frame(None, 9)), None, "another row is another particle");
     }
 
     #[test]
     fn without_ids_the_row_must_do() {
-        let picked = Picked::new(frame(None, 5), 0, 4);
-        assert_eq!(picked.mark, Mark::Row(4));
-        assert_eq!((find(&picked, &frame(None, 6)), find(&picked, &frame(None, 4))), (Some(4), None));
+        let tracked = Tracked::new(frame(None, 5), 0, 4);
+        assert_eq!(tracked.mark, Mark::Row(4));
+        assert_eq!((find(&tracked, &frame(None, 6)), find(&tracked, &frame(None, 4))), (Some(4), None));
     }
 }
