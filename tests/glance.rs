@@ -37,7 +37,7 @@ fn a_ray_has_the_opacity_of_its_pixel() {
         let mut scene = cloud(seed, radius);
         scene.view.particles.kernel = kernel;
         // By another field than the colour, every other time.
-        let opacity = OpacityView { name: None, range: Some([0.2, 0.9]) };
+        let opacity = OpacityView { range: Some([0.2, 0.9]), ..OpacityView::default() };
         scene.view.quantity.opacity = (seed % 2 == 0).then_some(opacity);
         let scene = prepare(&scene);
         let picture = shared().render(&scene, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -73,7 +73,7 @@ fn wrong_rays_are_noticed() {
 fn wrong_optics_are_noticed() {
     assert_noticed("a reference length 1 % off", |setup, _| setup.reference_length *= 1.01);
     assert_noticed("a range 1 % too wide", |setup, _| {
-        let Range { min, max } = setup.range;
+        let Range { min, max, .. } = setup.range;
         setup.range.max = max + 0.01 * (max - min);
     });
     assert_noticed("points in place of the line between them", |setup, _| {
@@ -94,7 +94,7 @@ fn a_missing_or_wrong_particle_is_noticed() {
     });
     assert_noticed("one quantity changed", |setup, particles| {
         let middle = particles.len() / 2;
-        let Range { min, max } = setup.range;
+        let Range { min, max, .. } = setup.range;
         particles[middle].quantity += 0.25 * (max - min);
     });
     assert_noticed("particles in another order than quantities", |_, particles| {

@@ -1,6 +1,8 @@
 //! Colour by one field, opacity by another: pictures are those of the f64 twin, adaptive ones keep their
 //! tolerance, and what may not change a picture does not.
 
+#[path = "two_fields/log_opacity.rs"]
+mod log_opacity;
 #[path = "two_fields/wrong_bounds.rs"]
 mod wrong_bounds;
 
@@ -17,13 +19,17 @@ use reference::scenes::{self, Scene, Shape, grey, plain_view};
 use reference::setup::Setup;
 use renderer::{BandLayers, Bound, GpuOptions, Kernel, OpacityView, OutsideView, Scale, Without};
 
+fn by_range(range: [f64; 2]) -> OpacityView {
+    OpacityView { range: Some(range), ..OpacityView::default() }
+}
+
 /// The plain scene with an opacity that rises to the right and an own unit.
 fn plain(seed: u64) -> Scene {
     let mut scene = scenes::plain(seed, 33, 21);
     for particle in &mut scene.particles {
         particle.opacity = 1000.0 + 50.0 * particle.position.x;
     }
-    scene.view.quantity.opacity = Some(OpacityView { name: None, range: Some([950.0, 1050.0]) });
+    scene.view.quantity.opacity = Some(by_range([950.0, 1050.0]));
     scene.name += ", opacity to the right";
     scene
 }
@@ -44,6 +50,7 @@ fn swapped(scene: &Scene) -> Scene {
     }
     let opacity = swapped.view.quantity.opacity.as_mut().expect("a field for the opacity");
     std::mem::swap(&mut opacity.range, &mut swapped.view.quantity.range);
+    std::mem::swap(&mut opacity.scale, &mut swapped.view.quantity.scale);
     swapped
 }
 
@@ -72,7 +79,8 @@ fn a_field_beside_itself_is_one_field() {
     {
         let before = picture(&scene);
         scene.particles.iter_mut().for_each(|particle| particle.opacity = particle.quantity);
-        scene.view.quantity.opacity = Some(OpacityView { name: None, range: scene.view.quantity.range });
+        scene.view.quantity.opacity =
+            Some(OpacityView { range: scene.view.quantity.range, ..OpacityView::default() });
         let after = picture(&scene);
         assert!(before.pixels == after.pixels, "{}: {}", scene.name, compare(&before, &after));
     }
@@ -137,7 +145,7 @@ fn a_calm_scene_takes_fewer_evaluations() {
     for particle in &mut scene.particles {
         particle.opacity = 0.5 + 0.4 * (0.5 * particle.position.z - 0.2 * particle.position.x).sin();
     }
-    scene.view.quantity.opacity = Some(OpacityView { name: None, range: Some([0.0, 1.0]) });
+    scene.view.quantity.opacity = Some(by_range([0.0, 1.0]));
     for trial in assert_kept([swapped(&scene), scene]) {
         assert!(trial.share() < 0.5, "{} of full sampling", trial.share());
         assert!(trial.adaptive.stats.predicted_error > 0.0);
@@ -183,7 +191,7 @@ fn with_values(what: &str, range: [f64; 2], value: impl Fn(usize, f64) -> f64) -
     for (index, particle) in scene.particles.iter_mut().enumerate() {
         particle.opacity = value(index, particle.opacity);
     }
-    scene.view.quantity.opacity = Some(OpacityView { name: None, range: Some(range) });
+    scene.view.quantity.opacity = Some(by_range(range));
     scene.view.sampling.tolerance = Some(0.01);
     scene.name = what.to_owned();
     scene

@@ -171,7 +171,7 @@ pub fn quantity(frame: &Frame, particles: &ParticleSet, view: &QuantityView) -> 
         Some(name) => Selection::new(frame, Some(name))?,
         None => selection,
     };
-    Ok(colour.with_opacity(&Quantity::new(particles, opacity.range, |row| selection.value(row))))
+    Ok(colour.with_opacity(&Quantity::new(particles, opacity.spread(), |row| selection.value(row))))
 }
 
 /// One line on the particles of a frame that are left out of its picture; `None` where all are in it.

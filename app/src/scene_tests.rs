@@ -1,6 +1,6 @@
 //! Frames with and without radii, masses and fields.
 
-use renderer::OpacityView;
+use renderer::{OpacityView, Placement, Quantity};
 
 use super::*;
 use crate::frames::Metadata;
@@ -97,14 +97,15 @@ fn another_field_may_decide_the_opacity() {
     let frame = bare(&[("dye", vec![0.0, 1.0, 2.0, f64::NAN]), ("rho", vec![f64::INFINITY, 5.0, 6.0, 7.0])]);
     let set = particles(&frame, Some(0.1)).unwrap();
     let both = |name: Option<&str>| {
-        let opacity = Some(OpacityView { name: name.map(str::to_owned), range: None });
+        let opacity = Some(OpacityView { name: name.map(str::to_owned), ..OpacityView::default() });
         quantity(&frame, &set, &QuantityView { name: Some("dye".into()), opacity, ..Default::default() })
     };
+    let opacity_range = |both: &Quantity| both.opacity_placement().map(Placement::range);
     let by_density = both(Some("density")).unwrap();
-    assert_eq!((by_density.range(), by_density.opacity_range()), ([0.0, 2.0], Some([5.0, 7.0])));
+    assert_eq!((by_density.range(), opacity_range(&by_density)), ([0.0, 2.0], Some([5.0, 7.0])));
     let warning = rejected_warning(&frame, &set, &by_density).unwrap();
     assert_eq!(warning, "2 of 4 particles are left out: quantity not finite (2)");
-    assert_eq!(both(None).unwrap().opacity_range(), Some([0.0, 2.0]), "without a name, the same field");
+    assert_eq!(opacity_range(&both(None).unwrap()), Some([0.0, 2.0]), "without a name, the same field");
     let message = both(Some("heat")).map(drop).unwrap_err().to_string();
     assert_eq!(message, "there is no field `heat`; there are: dye, rho");
 }

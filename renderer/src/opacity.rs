@@ -30,9 +30,9 @@ impl Quantity {
         }
     }
 
-    /// The values of the second field that are its 0 and 1; `None` where one field decides both.
-    pub fn opacity_range(&self) -> Option<[f64; 2]> {
-        self.opacity_placement.map(|placement| placement.range())
+    /// Where the values of the second field lie on the device's axis; `None` where one field decides both.
+    pub fn opacity_placement(&self) -> Option<&Placement> {
+        self.opacity_placement.as_ref()
     }
 
     /// Where values are on the device's axes: those that decide the colour, and those that decide the
@@ -80,7 +80,7 @@ mod tests {
         let opacity = field([10.0, 1.0, f64::INFINITY, 2.5]);
         let both = colour.with_opacity(&opacity);
         assert_eq!(
-            (both.rejected(), both.range(), both.opacity_range()),
+            (both.rejected(), both.range(), both.opacity_placement().map(Placement::range)),
             (2, [0.0, 10.0], Some([0.0, 10.0]))
         );
         assert_eq!([0, 1, 2, 3].map(|index| both.is_rejected(index)), [false, true, true, false]);

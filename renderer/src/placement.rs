@@ -52,7 +52,7 @@ impl From<Option<[f64; 2]>> for Spread {
     }
 }
 
-/// Where values are on the device's axis. Particles are interpolated there, so it is linear in the quantity:
+/// Where values are on the device's axis, of colours and of opacities where those are of two fields. Particles are interpolated there, so it is linear in the quantity:
 /// on a linear scale, [0, 1] is the range itself, or its middle half where values outside are told apart;
 /// on a logarithmic one, 0 is the value 0, so that small values keep all their digits, and the upper end of
 /// the range is 1, or ½.

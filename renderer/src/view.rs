@@ -138,12 +138,7 @@ impl QuantityView {
     }
 
     fn validate(&self) -> Result<(), ViewError> {
-        check_range(self.range, "quantity.range")?;
-        if let Some([low, high]) = self.range.filter(|_| self.scale == Scale::Log) {
-            check(low > 0.0, "quantity.range", || {
-                format!("[{low}, {high}] does not begin above 0, as a logarithmic scale needs it")
-            })?;
-        }
+        check_range(self.range, self.scale, "quantity.range")?;
         self.opacity.as_ref().map_or(Ok(()), OpacityView::validate)?;
         OutsideView::validate(&self.below, "quantity.below")?;
         OutsideView::validate(&self.above, "quantity.above")
@@ -238,11 +233,14 @@ impl View {
     }
 }
 
-/// Checks that a range, where there is one, is one.
-fn check_range(range: Option<[f64; 2]>, key: &'static str) -> Result<(), ViewError> {
+/// Checks that a range, where there is one, is one that its scale can have.
+fn check_range(range: Option<[f64; 2]>, scale: Scale, key: &'static str) -> Result<(), ViewError> {
     let Some([low, high]) = range else { return Ok(()) };
     check(low.is_finite() && high.is_finite() && low <= high, key, || {
         format!("[{low}, {high}] is not an ascending pair of finite numbers")
+    })?;
+    check(scale == Scale::Linear || low > 0.0, key, || {
+        format!("[{low}, {high}] does not begin above 0, as a logarithmic scale needs it")
     })
 }
 

@@ -41,7 +41,7 @@ pub fn quantity(set: &ParticleSet, particles: &[Particle], view: &View) -> Arc<Q
     let colour = Quantity::new(set, view.quantity.spread(), |row| particles[row].quantity);
     Arc::new(match &view.quantity.opacity {
         Some(opacity) => {
-            colour.with_opacity(&Quantity::new(set, opacity.range, |row| particles[row].opacity))
+            colour.with_opacity(&Quantity::new(set, opacity.spread(), |row| particles[row].opacity))
         }
         None => colour,
     })

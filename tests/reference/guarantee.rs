@@ -62,7 +62,7 @@ pub fn with_opacity(seed: u64, mut scene: Scene) -> Scene {
     }
     let cut = random.pick(&[0.0, 0.3, 0.9]);
     let range = Some([unit * (cut - 1.0), unit]);
-    scene.view.quantity.opacity = Some(OpacityView { name: None, range });
+    scene.view.quantity.opacity = Some(OpacityView { range, ..OpacityView::default() });
     scene.name += &format!(", opacity by another field, {seed}");
     scene
 }

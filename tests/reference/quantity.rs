@@ -38,6 +38,8 @@ pub fn field_at<'a>(
 pub struct Range {
     pub min: f64,
     pub max: f64,
+    /// Whether equal steps of u are equal ratios of the quantity.
+    pub logarithmic: bool,
 }
 
 impl Range {
@@ -45,14 +47,17 @@ impl Range {
     pub fn of(quantities: impl Iterator<Item = f64>) -> Option<Range> {
         quantities
             .filter(|q| q.is_finite())
-            .map(|q| Range { min: q, max: q })
-            .reduce(|a, b| Range { min: a.min.min(b.min), max: a.max.max(b.max) })
+            .map(|q| Range { min: q, max: q, logarithmic: false })
+            .reduce(|a, b| Range { min: a.min.min(b.min), max: a.max.max(b.max), ..a })
     }
 
-    /// u = clamp((Q − min)/(max − min), 0, 1). A range of no width, on which the contract is silent,
-    /// is the limit of narrow ones around its value, which itself becomes ½.
+    /// u = clamp((Q − min)/(max − min), 0, 1), of logarithms on a logarithmic scale, where what is not positive
+    /// is below all. A range of no width, on which the contract is silent, is the limit of narrow ones around
+    /// its value, which itself becomes ½.
     pub fn normalise(&self, q: f64) -> f64 {
-        let u = (q - self.min) / (self.max - self.min);
+        let [q, min, max] =
+            [q, self.min, self.max].map(|q| if self.logarithmic { q.max(0.0).ln() } else { q });
+        let u = (q - min) / (max - min);
         match self.min < self.max {
             true => u.clamp(0.0, 1.0),
             false if q < self.min => 0.0,
@@ -109,7 +114,10 @@ mod tests {
         let range = Range::of([3.0, f64::NAN, -1.0, f64::INFINITY].into_iter()).unwrap();
         assert_eq!([range.min, range.max], [-1.0, 3.0]);
         assert_eq!([-5.0, -1.0, 0.0, 3.0, 9.0].map(|q| range.normalise(q)), [0.0, 0.0, 0.25, 1.0, 1.0]);
-        let point = Range { min: 2.0, max: 2.0 };
+        let ratios = Range { min: 0.1, max: 1000.0, logarithmic: true };
+        let us = [-1.0, 0.0, 0.1, 1.0, 1e9].map(|q| ratios.normalise(q));
+        assert!(us.iter().zip([0.0, 0.0, 0.0, 0.25, 1.0]).all(|(u, v)| (u - v).abs() < 1e-12), "{us:?}");
+        let point = Range { min: 2.0, max: 2.0, logarithmic: false };
         assert_eq!([1.9, 2.0, 2.1].map(|q| point.normalise(q)), [0.0, 0.5, 1.0]);
         assert!(Range::of([f64::NAN].into_iter()).is_none());
     }

@@ -1,6 +1,6 @@
 //! All settings of one picture, as numbers of the twin's own.
 
-use renderer::View;
+use renderer::{Scale, View};
 
 use crate::camera::Camera;
 use crate::kernels::Kernel;
@@ -30,16 +30,17 @@ impl Setup {
     pub fn new(view: &View) -> Setup {
         let camera_view = view.camera.as_ref().expect("the twin takes the camera as given");
         let camera = Camera::new(camera_view, view.image.width, view.image.height);
-        let [min, max] = view.quantity.range.expect("the twin takes the range as given");
+        let range = |range: Option<[f64; 2]>, scale: Scale| {
+            let [min, max] = range.expect("the twin takes the range as given");
+            Range { min, max, logarithmic: scale == Scale::Log }
+        };
+        let quantity = &view.quantity;
         Setup {
             camera,
             slices: Slices::new(&camera, view.sampling.rate),
             kernel: view.particles.kernel.into(),
-            range: Range { min, max },
-            opacity_range: view.quantity.opacity.as_ref().map(|opacity| {
-                let [min, max] = opacity.range.expect("the twin takes the range as given");
-                Range { min, max }
-            }),
+            range: range(quantity.range, quantity.scale),
+            opacity_range: quantity.opacity.as_ref().map(|opacity| range(opacity.range, opacity.scale)),
             transfer: Transfer::new(&view.transfer.points),
             reference_length: view
                 .transfer

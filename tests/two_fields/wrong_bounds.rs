@@ -1,9 +1,10 @@
 //! The tests of the guarantee would notice bounds of two fields that are wrong on purpose.
 
 use reference::guarantee::{case, hard_cases, try_out, with_opacity};
+use reference::scenes::Scene;
 use renderer::{Gpu, GpuOptions, Kernel, Renderer};
 
-use super::swapped;
+use super::{log_opacity, swapped};
 
 /// What is wrong, and the texts of the shaders that make it so: from, to.
 const MUTANTS: [(&str, &str, &str); 6] = [
@@ -25,14 +26,24 @@ const MUTANTS: [(&str, &str, &str); 6] = [
 
 #[test]
 fn wrong_bounds_are_noticed() {
+    let steps = hard_cases().into_iter().zip(0..).flat_map(|(scene, seed)| {
+        let other = with_opacity(seed, scene);
+        [swapped(&other), other]
+    });
+    let random = (0..80).map(|seed| with_opacity(seed, case(seed)));
+    assert_noticed(&steps.chain(random).collect::<Vec<_>>());
+}
+
+#[test]
+fn opacities_at_ratios_alone_notice_them() {
+    assert_noticed(&log_opacity::hard().chain(log_opacity::cases(500..580)).collect::<Vec<_>>());
+}
+
+/// Fails unless each mutant breaks its promise in one of `cases`.
+fn assert_noticed(cases: &[Scene]) {
     // With one kernel: pipelines are made when they are first used.
     let cases = || {
-        let steps = hard_cases().into_iter().zip(0..).flat_map(|(scene, seed)| {
-            let other = with_opacity(seed, scene);
-            [swapped(&other), other]
-        });
-        let random = (0..80).map(|seed| with_opacity(seed, case(seed)));
-        steps.chain(random).map(|mut scene| {
+        cases.iter().cloned().map(|mut scene| {
             scene.view.particles.kernel = Kernel::Poly6;
             scene
         })

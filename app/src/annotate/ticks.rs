@@ -14,18 +14,20 @@ pub struct Tick {
 
 /// Closer to an end, as a share of the scale, a mark would touch the end's own.
 const APART: f64 = 0.09;
+/// Ratio of the ends up to which a logarithmic scale is hardly another one than a linear scale.
+const FEW: f64 = 5.0;
 /// Marks to aim at.
 const AIM: f64 = 5.0;
 
 /// Both ends of the range, exactly as they are, and round values between them: on a logarithmic scale the
-/// decades, or what is 1, 2 or 5 times a decade where there are few. A range of no width has one mark, in
-/// its middle.
+/// decades, or what is 1, 2 or 5 times a decade where there are few, or those of a linear scale where these
+/// are few, too. A range of no width has one mark, in its middle.
 pub fn ticks([low, high]: [f64; 2], scale: Scale) -> Vec<Tick> {
     let width = high - low;
     if width <= 0.0 || !width.is_finite() {
         return vec![Tick { share: 0.5, label: short(low) }];
     }
-    if scale == Scale::Log && low > 0.0 {
+    if scale == Scale::Log && high > FEW * low && low > 0.0 {
         return decades([low, high]);
     }
     let step = round_below(width / AIM * 2.0);
@@ -38,7 +40,7 @@ pub fn ticks([low, high]: [f64; 2], scale: Scale) -> Vec<Tick> {
     let end = |share, value| Tick { share, label: label(value) };
     let first = (low / step).ceil();
     let between = (0..20).map(|i| (first + f64::from(i)) * step).filter_map(|value| {
-        let share = (value - low) / width;
+        let share = scale.u([low, high], value);
         let inside = (APART..=1.0 - APART).contains(&share);
         inside.then(|| Tick { share: share as f32, label: label(value) })
     });
@@ -108,6 +110,8 @@ mod tests {
         assert_eq!(labels([1.0, 10.0]), ["1", "2", "5", "10"]);
         assert_eq!(labels([1e-12, 1e12]), ["1e-12", "1e-5", "1", "100000", "1e12"]);
         assert_eq!(labels([4.0, 4.0]), ["4"]);
+        assert_eq!(labels([1000.0, 1030.0]), ["1000", "1010", "1020", "1030"]);
+        assert_eq!(labels([1.0, 4.0]), ["1", "2", "3", "4"]);
         for i in 0..400 {
             let marks = ticks([0.3, 0.3 * 1.2_f64.powi(i + 1)], Scale::Log);
             assert!((2..=13).contains(&marks.len()), "{marks:?}");

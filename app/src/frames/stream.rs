@@ -218,6 +218,15 @@ impl FrameStream {
         self.shared.lock().slots.iter().map(cell).collect()
     }
 
+    /// The frames in memory and their places, in ascending order.
+    pub fn loaded(&self) -> Vec<(usize, Arc<Frame>)> {
+        let ready = |(index, slot): (usize, &Slot)| match &slot.state {
+            SlotState::Ready(frame) => Some((index, Arc::clone(frame))),
+            _ => None,
+        };
+        self.shared.lock().slots.iter().enumerate().filter_map(ready).collect()
+    }
+
     /// Bytes that frames may take beside the current one.
     pub fn budget(&self) -> usize {
         self.shared.lock().budget

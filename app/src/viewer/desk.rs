@@ -266,7 +266,7 @@ impl Desk {
         }
         if let Some(question) = self.session.question() {
             self.counting = true;
-            self.work(move || Done::Counted(question.answer()));
+            self.work(move || Done::Counted(Box::new(question.answer())));
         }
     }
 

@@ -6,6 +6,7 @@ mod history;
 mod live;
 mod looking;
 mod picture;
+mod pooled;
 mod range;
 mod reading;
 mod space;
@@ -26,6 +27,7 @@ use super::render_thread::Job;
 use super::run::Run;
 use crate::viewer::analysis::distribution::{Analysis, Question};
 use crate::viewer::analysis::field_ranges::FieldRanges;
+use crate::viewer::analysis::pool::Pool;
 use crate::viewer::analysis::statistics;
 use crate::viewer::picture::overlay::Overlay;
 use crate::viewer::render_thread::budget::Budget;
@@ -34,7 +36,7 @@ pub use costs::{Costs, Entry, Stage};
 use history::History;
 pub use looking::{End, Looking, Tool};
 pub use picture::PictureFacts;
-pub use range::{RangeSource, Ranges, Survey};
+pub use range::{RangeSource, Ranges, Role, Survey};
 use reading::GLANCE;
 
 pub struct Session {
@@ -64,6 +66,9 @@ pub struct Session {
     /// The tool in hand, and what was found with it.
     pub looking: Looking,
     pub analysis: Option<Analysis>,
+    /// The values in all frames in memory, and whether they are wanted.
+    pub pool: Pool,
+    pub wants_pool: bool,
     /// Of the fields of a frame, and whether they are wanted.
     pub field_ranges: Option<FieldRanges>,
     pub wants_field_ranges: bool,
@@ -116,6 +121,8 @@ impl Session {
             probe: None,
             looking: Looking::default(),
             analysis: None,
+            pool: Pool::default(),
+            wants_pool: false,
             field_ranges: None,
             wants_field_ranges: false,
             statistics: None,
@@ -149,6 +156,7 @@ impl Session {
         self.log(format!("opened {} frames={}", run.title, run.stream.len()));
         self.run = Some(run);
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
+        self.pool = Pool::default();
         self.probe = None;
         self.looking.forget();
         self.history = History::default();
@@ -312,14 +320,12 @@ impl Session {
     /// What is to be counted for the histogram, where that is not known.
     pub fn question(&self) -> Option<Question> {
         let (index, frame) = self.frame.as_ref()?;
+        let settled = self.complete_view().quantity;
         let question = Question {
             index: *index,
             frame: Arc::clone(frame),
-            quantity: self.view.quantity.name.clone(),
-            range: self.complete_view().quantity.range,
-            scale: self.view.quantity.scale,
-            quantiles: (self.range_source == RangeSource::Quantiles).then_some(self.ranges.quantiles),
-            opacity: self.opacity_field(),
+            colour: self.axis(Role::Colour, settled.range)?,
+            opacity: settled.opacity.and_then(|opacity| self.axis(Role::Opacity, opacity.range)),
         };
         let known = self.analysis.as_ref().is_some_and(|answer| question.is_answered_by(answer));
         (!known).then_some(question)

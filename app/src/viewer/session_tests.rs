@@ -172,17 +172,17 @@ fn ranges_come_from_the_frame_from_all_seen_or_from_the_user() {
     settle(&mut session);
     let first = session.question().unwrap().answer();
     session.answer(first.clone());
-    assert_eq!(session.range(), first.extremes);
+    assert_eq!(session.range(), first.colour.extremes);
     session.step(true);
     settle(&mut session);
     let second = session.question().unwrap().answer();
     session.answer(second.clone());
-    let ([a, b], [c, d]) = (first.extremes.unwrap(), second.extremes.unwrap());
+    let ([a, b], [c, d]) = (first.colour.extremes.unwrap(), second.colour.extremes.unwrap());
     assert_eq!(session.range(), Some([a.min(c), b.max(d)]));
     session.range_source = RangeSource::Frame;
     assert_eq!(session.complete_view().quantity.range, None);
     session.answer(session.question().unwrap().answer());
-    assert_eq!(session.range(), second.extremes);
+    assert_eq!(session.range(), second.colour.extremes);
     assert!(session.question().is_none());
 }
 

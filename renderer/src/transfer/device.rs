@@ -6,6 +6,11 @@
 //! them ln Q changes by t = Δu·Λ/n, with Λ = ln(q_max/q_min), and a line in Q differs from ln Q by at most
 //! ln(sinh x/x) + x·coth x − 1 ≤ x²/6 + x²/3 = t²/8, with x = t/2. So a channel is off by at most
 //! Δv/Δu · t²/(8Λ) = Δv·Δu·Λ/(8n²), which is no more than 1/4096 for n ≥ √(512·Δv·Δu·Λ).
+//!
+//! Where colour and opacity are read at two fields, each has a scale, a range and so a Λ of its own: colours
+//! and opacities are cut apart from each other before they are joined, and a node of one is on the line of
+//! the other. Opacities add up along a ray, so theirs count as a share of the larger one at the segment's
+//! ends: one of 0.001 is as sharp as one of 1.
 
 use crate::particles::Quantity;
 use crate::placement::Placement;
@@ -36,10 +41,10 @@ impl TransferFunction {
             return Ok(function);
         }
         let colours: Vec<Node<3>> = view.colours()?.iter().map(|point| (point.u, point.rgb)).collect();
-        let mut colours = placed(&colours, &of_colour);
-        let mut opacities = placed(&opacities(function.points()), &of_opacity);
+        let mut colours = placed(&colours, &of_colour, largest_change);
+        let mut opacities = placed(&opacities(function.points()), &of_opacity, share_of_change);
         add_outside(&mut colours, &of_colour, outside.map(|side| side.map(|side| side.rgb)));
-        if quantity.opacity_range().is_none() {
+        if quantity.opacity_placement().is_none() {
             add_outside(&mut opacities, &of_opacity, outside.map(|side| side.map(|side| [side.opacity])));
         }
         checked(merged(&colours, &opacities))
@@ -102,14 +107,17 @@ fn checked(points: Vec<ControlPoint>) -> Result<TransferFunction, ViewError> {
     TransferFunction::new(&points)
 }
 
-/// Nodes on the device's axis, as many as a logarithmic scale needs.
-fn placed<const N: usize>(nodes: &[Node<N>], placement: &Placement) -> Vec<Node<N>> {
+/// Nodes on the device's axis, as many as a logarithmic scale needs; `change` is Δv from one to the next.
+fn placed<const N: usize>(
+    nodes: &[Node<N>],
+    placement: &Placement,
+    change: fn([f64; N], [f64; N]) -> f64,
+) -> Vec<Node<N>> {
     let place = |u: f64| placement.device(u) as f32;
     let mut all: Vec<Node<N>> = nodes.first().map(|(u, v)| (place(f64::from(*u)), *v)).into_iter().collect();
     for pair in nodes.windows(2) {
         let [(u0, a), (u1, b)] = [pair[0], pair[1]].map(|(u, v)| (f64::from(u), v.map(f64::from)));
-        let change = a.iter().zip(b).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
-        let parts = parts(change, u1 - u0, placement);
+        let parts = parts(change(a, b), u1 - u0, placement);
         all.extend((1..=parts).map(|part| {
             let share = f64::from(part) / f64::from(parts);
             let value = std::array::from_fn(|c| (a[c] + share * (b[c] - a[c])) as f32);
@@ -117,6 +125,16 @@ fn placed<const N: usize>(nodes: &[Node<N>], placement: &Placement) -> Vec<Node<
         }));
     }
     all
+}
+
+/// Of any channel.
+fn largest_change<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
+}
+
+/// Of the larger of two opacities.
+fn share_of_change([a]: [f64; 1], [b]: [f64; 1]) -> f64 {
+    if a == b { 0.0 } else { (b - a).abs() / a.max(b) }
 }
 
 /// How many parts a segment is cut into.
@@ -261,6 +279,40 @@ mod tests {
                     }
                 }
                 assert!(device.points().len() < 1500, "{}", device.points().len());
+            }
+        }
+    }
+
+    #[test]
+    fn colour_and_opacity_keep_scales_of_their_own() {
+        let mut random = Random(3);
+        for (decades, scales) in [
+            (3.0, [Scale::Linear, Scale::Log]),
+            (6.0, [Scale::Log, Scale::Linear]),
+            (2.0, [Scale::Log, Scale::Log]),
+            (30.0, [Scale::Linear, Scale::Log]),
+        ] {
+            let mut view = random.view();
+            // Small opacities are kept as well as large ones.
+            let factor = 1e-3;
+            view.points.iter_mut().for_each(|point| point.opacity *= factor);
+            let [colour, opacity] = [[5.0, 5.0 * 10.0_f64.powf(1.5)], [2e-4, 2e-4 * 10.0_f64.powf(decades)]];
+            let both = quantity(colour, scales[0], false).with_opacity(&quantity(opacity, scales[1], false));
+            let device = TransferFunction::on_device(&view, &both, [None; 2]).unwrap();
+            let function = view.function().unwrap();
+            let at = |placement: &Placement, u: f64| device.sample(placement.device(u) as f32);
+            for _ in 0..2000 {
+                let u = random.next();
+                let [of_colour, of_opacity] = both.placements();
+                let ([r, g, b, _], [.., a]) = (at(&of_colour, u), at(&of_opacity, u));
+                let expected = function.sample(u as f32);
+                if is_smooth(&function, u as f32) {
+                    let off = apart([r, g, b, expected[3]], expected);
+                    assert!(off < 1.0 / 4096.0 + 2e-5, "colour, {decades} decades, {scales:?}, u = {u}");
+                    let off = (a - expected[3]).abs();
+                    let most = factor * (1.0 / 4096.0 + 2e-5);
+                    assert!(off < most, "opacity, {decades} decades, {scales:?}, u = {u}: {off}");
+                }
             }
         }
     }

@@ -3,5 +3,7 @@
 
 pub mod distribution;
 pub mod field_ranges;
+pub mod histogram;
+pub mod pool;
 pub mod statistics;
 pub mod survey;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{Desk, Done};
 use crate::viewer::analysis::field_ranges::FieldRanges;
+use crate::viewer::analysis::pool::{self, Pool};
 use crate::viewer::analysis::statistics::Answer;
 use crate::viewer::inspect::pointing::Pointed;
 use crate::viewer::inspect::tracked::Located;
@@ -15,6 +16,7 @@ pub(super) struct Inquiries {
     pointing: bool,
     search: bool,
     statistics: bool,
+    pool: bool,
 }
 
 impl Desk {
@@ -44,7 +46,21 @@ impl Desk {
             // What nobody looks at must not keep a frame in memory.
             self.session.statistics = None;
         }
+        self.pool_frames();
         self.find_ranges();
+    }
+
+    fn pool_frames(&mut self) {
+        if self.session.wants_pool
+            && !self.inquiries.pool
+            && let Some(question) = self.session.pool_question()
+        {
+            self.inquiries.pool = true;
+            self.work(move || Done::Pooled(Box::new(question.answer())));
+        }
+        if !std::mem::take(&mut self.session.wants_pool) {
+            self.session.pool = Pool::default();
+        }
     }
 
     fn find_ranges(&mut self) {
@@ -66,6 +82,11 @@ impl Desk {
     pub(super) fn take_field_ranges(&mut self, ranges: FieldRanges) {
         self.inquiries.ranges = false;
         self.session.field_ranges = Some(ranges);
+    }
+
+    pub(super) fn take_pooled(&mut self, answer: pool::Answer) {
+        self.inquiries.pool = false;
+        self.session.pool.take(answer);
     }
 
     pub(super) fn take_statistics(&mut self, answer: Answer) {

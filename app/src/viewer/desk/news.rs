@@ -10,6 +10,7 @@ use crate::frames::Sequence;
 use crate::viewer::Wake;
 use crate::viewer::analysis::distribution::Analysis;
 use crate::viewer::analysis::field_ranges::FieldRanges;
+use crate::viewer::analysis::pool;
 use crate::viewer::analysis::statistics::Answer;
 use crate::viewer::dialogs;
 use crate::viewer::inspect::pointing::Pointed;
@@ -22,8 +23,9 @@ pub(super) enum Done {
     Found(Opening, Result<Sequence, String>),
     ViewRead(PathBuf, anyhow::Result<Box<View>>),
     ViewSaved(PathBuf, anyhow::Result<()>),
-    Counted(Analysis),
+    Counted(Box<Analysis>),
     Function(functions::Filed),
+    Pooled(Box<pool::Answer>),
     Ranged(FieldRanges),
     Pointed(Box<Pointed>),
     Located(Located),
@@ -80,8 +82,9 @@ impl Desk {
                 Done::Function(filed) => self.take_function(filed),
                 Done::Counted(analysis) => {
                     self.counting = false;
-                    self.session.answer(analysis);
+                    self.session.answer(*analysis);
                 }
+                Done::Pooled(answer) => self.take_pooled(*answer),
                 Done::Ranged(ranges) => self.take_field_ranges(ranges),
                 Done::Kept(file, result) => self.written(file, result),
                 Done::VideosPossible(possible) => self.exporting.videos_possible(possible),

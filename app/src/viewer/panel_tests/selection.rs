@@ -92,7 +92,7 @@ fn a_filter_begins_with_the_quantity_in_view_and_takes_another_field() {
     let select = click(&mut harness, "+ Filter");
     assert_eq!((select.filters[0].field.as_str(), select.filters.len()), ("velocity", 1));
     let all = select.filters[0].range;
-    assert_eq!(Some(all), harness.state().analysis.as_ref().unwrap().extremes);
+    assert_eq!(Some(all), harness.state().analysis.as_ref().unwrap().colour.extremes);
     click(&mut harness, "Field of Filter 1");
     let select = click(&mut harness, "density");
     assert_eq!((select.filters[0].field.as_str(), select.filters[0].range), ("density", [1000.0, 1030.0]));

@@ -14,9 +14,10 @@ use egui_kittest::{Harness, HarnessBuilder, SnapshotOptions};
 use egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 use renderer::{CellClasses, Evaluations, Milliseconds, Stats};
 
-use super::{fluid, inspector, performance, pictured};
+use super::{fluid, inspector, performance, pictured, transfer};
 use crate::viewer::panels::inspector::Inspector;
 use crate::viewer::panels::sampling::SamplingPanel;
+use crate::viewer::panels::transfer_editor::TransferEditor;
 use crate::viewer::panels::{cells, measured_error, performance as panel, saved};
 use crate::viewer::picture::overlay::Kind;
 use crate::viewer::session::Session;
@@ -129,6 +130,12 @@ fn sampling() {
         saved::show(ui, session);
         measured_error::show(ui, session, None, &mut Vec::new());
     });
+}
+
+#[test]
+fn transfer_function_of_two_fields() {
+    let mut editor = TransferEditor::default();
+    side("transfer", 360.0, transfer::by_density(), move |ui, session| editor.show(ui, session));
 }
 
 #[test]

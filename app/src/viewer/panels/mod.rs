@@ -45,3 +45,4 @@ pub mod transfer_canvas;
 pub mod transfer_edit;
 pub mod transfer_editor;
 mod transfer_fields;
+mod transfer_marks;

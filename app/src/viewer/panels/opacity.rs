@@ -1,14 +1,14 @@
 //! Which field decides the opacity, where that is another one than the colour's.
 
 use egui::{RichText, Ui};
-use renderer::{OpacityView, Scale};
+use renderer::OpacityView;
 
 use crate::frames::Frame;
 use crate::scene::quantity_names;
-use crate::viewer::session::{RangeSource, Session};
+use crate::viewer::session::{RangeSource, Role, Session};
 use crate::viewer::{theme, widgets};
 
-use super::quantity::{Range, describe};
+use super::quantity::{describe, values};
 
 /// What the menu says where one field decides both.
 const SAME: &str = "the same field";
@@ -40,40 +40,25 @@ pub fn show(ui: &mut Ui, session: &mut Session, frame: &Frame) {
         menu.response.on_hover_text(hint).accessible_name("Opacity by");
     });
     if field.is_some() {
-        range(ui, session);
+        ui.push_id("opacity", |ui| {
+            let names = ["Lowest value of the opacity", "Highest value of the opacity"];
+            values(ui, session, Role::Opacity, names);
+        });
         let colour = session.shown_quantity().unwrap_or_default();
         let opacity = field.flatten().unwrap_or_default();
         let text = format!(
-            "Along the transfer function, colours and histogram are of {colour}, opacities of {opacity}."
+            "In the transfer function, nodes and histogram are of {opacity}, colours of {colour}. Outside its \
+             range, {opacity} is as opaque as at the nearer end."
         );
         ui.label(RichText::new(text).small().color(theme::colours().muted));
     }
 }
 
 fn choose(session: &mut Session, name: String) {
-    session.view.quantity.opacity = Some(OpacityView { name: Some(name), range: None });
+    session.view.quantity.opacity = Some(OpacityView { name: Some(name), ..OpacityView::default() });
     // A range by hand is of the field before.
     session.opacity_source = match session.range_source {
-        RangeSource::Seen => RangeSource::Seen,
-        RangeSource::Frame | RangeSource::Quantiles | RangeSource::Fixed => RangeSource::Frame,
+        RangeSource::Fixed => RangeSource::Frame,
+        steady => steady,
     };
-}
-
-fn range(ui: &mut Ui, session: &mut Session) {
-    let by_hand = session.view.quantity.opacity.as_ref().and_then(|opacity| opacity.range);
-    let mut range = Range {
-        source: session.opacity_source,
-        by_hand,
-        in_effect: session.opacity_range(),
-        extremes: session.opacity_extremes(),
-        scale: Scale::Linear,
-        quantiles: None,
-    };
-    ui.push_id("opacity", |ui| {
-        range.show(ui, ["Lowest value of the opacity", "Highest value of the opacity"])
-    });
-    session.opacity_source = range.source;
-    if let Some(opacity) = &mut session.view.quantity.opacity {
-        opacity.range = range.by_hand;
-    }
 }

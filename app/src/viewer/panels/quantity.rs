@@ -5,7 +5,7 @@ use renderer::Scale;
 
 use crate::frames::Frame;
 use crate::scene::{Selection, quantity_names};
-use crate::viewer::session::{RangeSource, Session, Survey};
+use crate::viewer::session::{RangeSource, Role, Session, Survey};
 use crate::viewer::{theme, widgets};
 
 use super::opacity;
@@ -32,29 +32,61 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         });
         menu.response.accessible_name("Field");
     });
-    scale(ui, session);
-    let mut range = Range {
-        source: session.range_source,
-        by_hand: session.view.quantity.range,
-        in_effect: session.range(),
-        extremes: session.analysis.as_ref().and_then(|analysis| analysis.extremes),
-        scale: session.view.quantity.scale,
-        quantiles: Some(session.ranges.quantiles),
-    };
-    range.show(ui, ["Lowest value", "Highest value"]);
-    (session.range_source, session.view.quantity.range) = (range.source, range.by_hand);
-    session.ranges.quantiles = range.quantiles.unwrap_or(session.ranges.quantiles);
-    if session.range_source == RangeSource::Seen {
-        survey(ui, session);
-    }
-    if let Some(not_finite) = session.analysis.as_ref().map(|analysis| analysis.not_finite)
-        && not_finite > 0
-    {
-        let text = format!("{}, left out", widgets::count(not_finite as u64));
-        let hint = "Particles whose value is no finite number are no part of the picture";
-        ui.scope(|ui| widgets::fact(ui, "Without a value", text).on_hover_text(hint));
-    }
+    values(ui, session, Role::Colour, ["Lowest value", "Highest value"]);
     opacity::show(ui, session, &frame);
+}
+
+/// Scale and range of the field that has a role, and what is known of its values.
+pub fn values(ui: &mut Ui, session: &mut Session, role: Role, names: [&str; 2]) {
+    scale(ui, session, role);
+    let quantity = &session.view.quantity;
+    let (source, by_hand) = match role {
+        Role::Colour => (session.range_source, quantity.range),
+        Role::Opacity => {
+            (session.opacity_source, quantity.opacity.as_ref().and_then(|opacity| opacity.range))
+        }
+    };
+    let mut range = Range {
+        source,
+        by_hand,
+        in_effect: session.range_of(role),
+        extremes: session.distribution(role).and_then(|found| found.extremes),
+        scale: session.scale(role),
+        quantiles: session.ranges.quantiles[role as usize],
+    };
+    range.show(ui, names);
+    session.ranges.quantiles[role as usize] = range.quantiles;
+    match (role, &mut session.view.quantity.opacity) {
+        (Role::Colour, _) => {
+            (session.range_source, session.view.quantity.range) = (range.source, range.by_hand);
+        }
+        (Role::Opacity, Some(opacity)) => {
+            (session.opacity_source, opacity.range) = (range.source, range.by_hand)
+        }
+        (Role::Opacity, None) => {}
+    }
+    if range.source == RangeSource::Seen {
+        survey(ui, session, role);
+    }
+    without_value(ui, session, role);
+}
+
+/// How many particles are no part of the picture for want of a value.
+fn without_value(ui: &mut Ui, session: &Session, role: Role) {
+    let count = session.distribution(role).map_or(0, |found| found.not_finite);
+    if count == 0 {
+        return;
+    }
+    let all = session.analysis.as_ref().map_or(0, |analysis| analysis.left_out);
+    let text = format!("{}, left out", widgets::count(count as u64));
+    let hint = match session.view.quantity.opacity {
+        None => "Particles whose value is no finite number are no part of the picture".to_owned(),
+        Some(_) => format!(
+            "Particles that lack a finite value of either field are no part of the picture: {} in all",
+            widgets::count(all as u64)
+        ),
+    };
+    ui.scope(|ui| widgets::fact(ui, "Without a value", text).on_hover_text(hint));
 }
 
 /// Another field has other values: a range by hand would mean nothing.
@@ -66,8 +98,9 @@ fn choose(session: &mut Session, name: String) {
     }
 }
 
-fn scale(ui: &mut Ui, session: &mut Session) {
-    let mut scale = session.view.quantity.scale;
+fn scale(ui: &mut Ui, session: &mut Session, role: Role) {
+    let before = session.scale(role);
+    let mut scale = before;
     let log = "Equal distances along the transfer function are equal ratios: for values of many magnitudes. \
                What is not positive counts as below the range";
     let choices = [
@@ -75,14 +108,14 @@ fn scale(ui: &mut Ui, session: &mut Session) {
         (Scale::Log, "Logarithmic", log),
     ];
     widgets::row(ui, "Scale", |ui| widgets::choice(ui, &mut scale, &choices));
-    if scale != session.view.quantity.scale {
-        session.set_scale(scale);
+    if scale != before {
+        session.set_scale(role, scale);
     }
 }
 
 /// Of how many frames the extremes are known, and a way to know them of all.
-fn survey(ui: &mut Ui, session: &mut Session) {
-    let (seen, count) = (session.frames_seen(), session.playback.count());
+fn survey(ui: &mut Ui, session: &mut Session, role: Role) {
+    let (seen, count) = (session.frames_seen(role), session.playback.count());
     if count < 2 {
         return;
     }
@@ -111,37 +144,35 @@ fn survey(ui: &mut Ui, session: &mut Session) {
 }
 
 /// Which values of a field are the ends of the transfer function.
-pub struct Range {
-    pub source: RangeSource,
+struct Range {
+    source: RangeSource,
     /// What holds where the source says so.
-    pub by_hand: Option<[f64; 2]>,
-    pub in_effect: Option<[f64; 2]>,
+    by_hand: Option<[f64; 2]>,
+    in_effect: Option<[f64; 2]>,
     /// In the frame in view.
-    pub extremes: Option<[f64; 2]>,
-    pub scale: Scale,
-    /// Shares of the particles between which values are shown, where that can be chosen.
-    pub quantiles: Option<[f64; 2]>,
+    extremes: Option<[f64; 2]>,
+    scale: Scale,
+    /// Shares of the particles between which values are shown.
+    quantiles: [f64; 2],
 }
 
 impl Range {
     /// `names`: of the numbers, for those who do not see them.
-    pub fn show(&mut self, ui: &mut Ui, names: [&str; 2]) {
+    fn show(&mut self, ui: &mut Ui, names: [&str; 2]) {
         let before = self.source;
-        let mut choices = vec![
+        let percentile = "Without the smallest and the largest values of the frame in view";
+        let choices = [
             (RangeSource::Frame, "This frame", "Smallest and largest value of the frame in view"),
             (RangeSource::Seen, "All frames", "Smallest and largest value of all frames that were read"),
+            (RangeSource::Quantiles, "Percentile", percentile),
             (RangeSource::Fixed, "Fixed", "A range by hand, the same for every frame"),
         ];
-        if self.quantiles.is_some() {
-            let hint = "Without the smallest and the largest values of the frame in view";
-            choices.insert(2, (RangeSource::Quantiles, "Percentile", hint));
-        }
         ui.horizontal(|ui| widgets::choice(ui, &mut self.source, &choices));
         if self.source != before {
             self.by_hand = self.in_effect.filter(|_| self.source == RangeSource::Fixed);
         }
-        if let (RangeSource::Quantiles, Some(quantiles)) = (self.source, &mut self.quantiles) {
-            shares(ui, quantiles);
+        if self.source == RangeSource::Quantiles {
+            shares(ui, &mut self.quantiles);
         }
         let Some(ends) = self.in_effect else { return };
         widgets::row(ui, "Range", |ui| self.ends(ui, ends, names));

@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, handles: &mut bool) {
 /// Buttons for what is not there yet.
 fn add(ui: &mut Ui, session: &mut Session, scene: &Bounds) {
     let looking = session.camera.map_or(DVec3::NEG_Z, |camera| -camera.axes()[2]);
-    let extremes = session.analysis.as_ref().and_then(|analysis| analysis.extremes);
+    let extremes = session.analysis.as_ref().and_then(|analysis| analysis.colour.extremes);
     let shown = session.shown_quantity();
     let select = &mut session.view.select;
     ui.horizontal(|ui| {

@@ -9,8 +9,10 @@ use crate::viewer::theme;
 use super::transfer_edit::colour_nodes;
 use super::transfer_fields::Node;
 
-/// Smallest opacity that a logarithmic axis shows above zero.
+/// Where a logarithmic axis goes over to a linear one, which ends at zero: the opacity, and its share of the
+/// axis.
 const LOG_FLOOR: f32 = 1e-4;
+const LINEAR: f32 = 0.08;
 /// A node is caught within this distance, in points.
 const REACH: f32 = 9.0;
 /// Points between two columns of a gradient.
@@ -31,7 +33,8 @@ impl Axes {
 
     pub fn y(&self, opacity: f32) -> f32 {
         let height = match self.log {
-            true => (1.0 - opacity.max(LOG_FLOOR).log10() / LOG_FLOOR.log10()).clamp(0.0, 1.0),
+            true if opacity < LOG_FLOOR => LINEAR * opacity / LOG_FLOOR,
+            true => 1.0 - (1.0 - LINEAR) * opacity.log10() / LOG_FLOOR.log10(),
             false => opacity,
         };
         self.rect.bottom() - height * self.rect.height()
@@ -46,8 +49,8 @@ impl Axes {
         let u = ((place.x - self.rect.left()) / self.rect.width()).clamp(0.0, 1.0);
         let height = ((self.rect.bottom() - place.y) / self.rect.height()).clamp(0.0, 1.0);
         let opacity = match self.log {
-            true if height < 0.005 => 0.0,
-            true => LOG_FLOOR.powf(1.0 - height),
+            true if height < LINEAR => LOG_FLOOR * height / LINEAR,
+            true => LOG_FLOOR.powf((1.0 - height) / (1.0 - LINEAR)),
             false => height,
         };
         (u, opacity)
@@ -75,7 +78,7 @@ impl Strip {
         place.y >= self.rect.top() - 1.0
     }
 
-    fn place(&self, u: f32) -> Pos2 {
+    pub fn place(&self, u: f32) -> Pos2 {
         pos2(self.rect.left() + u * self.rect.width(), self.nodes)
     }
 
@@ -87,23 +90,31 @@ impl Strip {
     }
 }
 
+/// What lies behind the nodes.
+pub struct Behind {
+    /// u of the edges of the histogram's bars, one more than there are bars.
+    pub edges: Vec<f32>,
+    pub bars: Vec<u64>,
+    /// Whether counts are shown in proportion, rather than by their logarithms.
+    pub plain_counts: bool,
+    /// Whether opacities are of another field than the colours, so that none of these is that of a node.
+    pub colourless: bool,
+}
+
 /// A canvas with the histogram behind the opacity, and the colours in a strip below.
-pub fn paint(
-    painter: &Painter,
-    axes: &Axes,
-    strip: &Strip,
-    transfer: &TransferView,
-    bars: &[u64],
-    plain_counts: bool,
-) {
+pub fn paint(painter: &Painter, axes: &Axes, strip: &Strip, transfer: &TransferView, behind: &Behind) {
     let frame = axes.rect.expand2(egui::vec2(7.0, 7.0));
     painter.rect_filled(frame, 4, theme::colours().well);
-    histogram(painter, axes, bars, plain_counts);
+    histogram(painter, axes, behind);
     grid(painter, axes);
     let Ok(function) = transfer.function() else { return };
     gradient(painter, axes.rect, |u| {
         let [r, g, b, opacity] = function.sample(u);
-        (axes.y(opacity), to_screen([r, g, b]).gamma_multiply(0.45))
+        let fill = match behind.colourless {
+            true => theme::colours().accent.gamma_multiply(0.25),
+            false => to_screen([r, g, b]).gamma_multiply(0.45),
+        };
+        (axes.y(opacity), fill)
     });
     gradient(painter, strip.rect, |u| {
         let [r, g, b, _] = function.sample(u);
@@ -119,6 +130,7 @@ pub fn paint_nodes(
     axes: &Axes,
     strip: &Strip,
     transfer: &TransferView,
+    behind: &Behind,
     marked: [Option<Node>; 2],
 ) {
     let ring = |node: Node, small: f32| {
@@ -138,24 +150,23 @@ pub fn paint_nodes(
     for (index, point) in transfer.points.iter().enumerate() {
         let [r, g, b, _] = function.as_ref().map_or([1.0; 4], |function| function.sample(point.u));
         let (radius, stroke) = ring(Node::Opacity(index), 5.0);
-        painter.circle(axes.place(point), radius, to_screen([r, g, b]), stroke);
+        let colour = if behind.colourless { theme::colours().raised } else { to_screen([r, g, b]) };
+        painter.circle(axes.place(point), radius, colour, stroke);
     }
 }
 
-/// Particles in each bar; without `plain`, on a logarithmic axis: rare values matter as much as common ones.
-fn histogram(painter: &Painter, axes: &Axes, bars: &[u64], plain: bool) {
-    let most = bars.iter().copied().max().unwrap_or(0);
+/// Particles in each bar, in proportion or by logarithms: then rare values are seen as well as common ones.
+fn histogram(painter: &Painter, axes: &Axes, behind: &Behind) {
+    let most = behind.bars.iter().copied().max().unwrap_or(0);
     if most == 0 {
         return;
     }
-    let size = |bar: u64| if plain { bar as f32 } else { (1.0 + bar as f32).ln() };
-    let width = axes.rect.width() / bars.len() as f32;
+    let size = |bar: u64| if behind.plain_counts { bar as f32 } else { (1.0 + bar as f32).ln() };
     let mut mesh = Mesh::default();
-    for (index, bar) in bars.iter().enumerate() {
+    for (bar, edges) in behind.bars.iter().zip(behind.edges.windows(2)) {
         let height = size(*bar) / size(most) * axes.rect.height();
-        let left = axes.rect.left() + index as f32 * width;
-        let corner = pos2(left, axes.rect.bottom() - height);
-        let bar = Rect::from_min_max(corner, pos2(left + width, axes.rect.bottom()));
+        let corner = pos2(axes.x(edges[0]), axes.rect.bottom() - height);
+        let bar = Rect::from_min_max(corner, pos2(axes.x(edges[1]), axes.rect.bottom()));
         mesh.add_colored_rect(bar, theme::colours().bar);
     }
     painter.add(Shape::mesh(mesh));
@@ -235,6 +246,10 @@ mod tests {
                 let (back_u, back) = axes(log).at(axes(log).place(&point(u, opacity)));
                 assert!((back_u - u).abs() < 1e-5 && (back - opacity).abs() < 1e-4, "{u} {opacity} {log}");
             }
+        }
+        for opacity in [0.0, 2e-6, 9e-5, 1e-4, 3e-4] {
+            let (_, back) = axes(true).at(axes(true).place(&point(0.5, opacity)));
+            assert!((back - opacity).abs() <= 1e-3 * opacity, "{opacity} near zero is {back}");
         }
         assert_eq!(axes(false).at(pos2(-500.0, 999.0)), (0.0, 0.0));
     }

@@ -1,35 +1,50 @@
 //! The transfer function: colour and opacity of every value, edited on a canvas and by numbers.
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Key, PointerButton, PopupCloseBehavior, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
+use egui::{Key, PointerButton, PopupCloseBehavior, Pos2, Rect, Response, RichText, Sense, Ui, vec2};
 use renderer::TransferView;
 
-use crate::annotate::ticks;
-use crate::viewer::session::Session;
+use crate::viewer::session::{Role, Session};
 use crate::viewer::{accessible, theme, widgets};
 
 use super::presets::Presets;
-use super::transfer_canvas::{self as canvas, Axes, Strip};
+use super::transfer_canvas::{self as canvas, Axes, Behind, Strip};
 use super::transfer_edit as edit;
 use super::transfer_fields::{self as fields, Node};
+use super::transfer_marks as marks;
 
 /// What the editor remembers between frames.
 #[derive(Default)]
 pub struct TransferEditor {
     pub presets: Presets,
     selected: Option<Node>,
-    /// The node that the mouse holds.
-    held: Option<Node>,
+    held: Option<Held>,
     /// Whether the opacity axis is logarithmic.
     log: bool,
     /// Whether counts are shown in proportion, rather than by their logarithms.
     plain_counts: bool,
+    /// Whether the histogram is that of all frames in memory.
+    all_frames: bool,
+}
+
+/// The node that the mouse holds.
+#[derive(Clone, Copy)]
+struct Held {
+    node: Node,
+    /// Where the node would be if it could be anywhere.
+    place: Pos2,
+    cursor: Pos2,
 }
 
 const CANVAS_HEIGHT: f32 = 132.0;
 const STRIP_HEIGHT: f32 = 12.0;
+/// Between the canvas and the strip; and where values and a caption stand there.
+const GAP: f32 = 8.0;
+const WIDE_GAP: f32 = 40.0;
 /// Room for the nodes of colour below the strip.
 const NODES_HEIGHT: f32 = 13.0;
+/// Share of the mouse's way that a node goes while Shift is held.
+const FINE: f32 = 0.1;
 
 impl TransferEditor {
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
@@ -43,16 +58,18 @@ impl TransferEditor {
         if super::colour_menu::show(ui, transfer) && matches!(self.selected, Some(Node::Colour(_))) {
             self.selected = None;
         }
-        self.header(ui, transfer);
-        let bars = session.analysis.as_ref().map_or(&[][..], |analysis| &analysis.bars);
-        self.canvas(ui, &mut session.view.transfer, bars);
-        marks(ui, session);
+        self.header(ui, session);
+        self.canvas(ui, session);
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 14.0), Sense::hover());
+        marks::show(ui, session, Role::Colour, rect);
         fields::node(ui, session, &mut self.selected, self.log);
         fields::outside(ui, session);
         fields::reference_length(ui, session);
     }
 
-    fn header(&mut self, ui: &mut Ui, transfer: &mut TransferView) {
+    fn header(&mut self, ui: &mut Ui, session: &mut Session) {
+        let several = session.playback.count() > 1;
+        let transfer = &mut session.view.transfer;
         ui.horizontal(|ui| {
             let before = transfer.clone();
             self.presets.show(ui, transfer);
@@ -66,48 +83,114 @@ impl TransferEditor {
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-                MenuButton::new("Axes").config(config).ui(ui, |ui| {
-                    ui.checkbox(&mut self.log, "Logarithmic opacity").on_hover_text("Fine control near zero");
-                    let mut log_counts = !self.plain_counts;
-                    let hint = "Rare values are seen as well as common ones";
-                    if ui.checkbox(&mut log_counts, "Logarithmic counts").on_hover_text(hint).changed() {
-                        self.plain_counts = !log_counts;
-                    }
-                });
+                MenuButton::new("Axes").config(config).ui(ui, |ui| self.axes_menu(ui, several));
             });
         });
     }
 
-    fn canvas(&mut self, ui: &mut Ui, transfer: &mut TransferView, bars: &[u64]) {
-        let height = CANVAS_HEIGHT + 8.0 + STRIP_HEIGHT + NODES_HEIGHT;
+    fn axes_menu(&mut self, ui: &mut Ui, several: bool) {
+        ui.checkbox(&mut self.log, "Logarithmic opacity").on_hover_text("Fine control near zero");
+        let mut log_counts = !self.plain_counts;
+        let hint = "Rare values are seen as well as common ones";
+        if ui.checkbox(&mut log_counts, "Logarithmic counts").on_hover_text(hint).changed() {
+            self.plain_counts = !log_counts;
+        }
+        if several {
+            ui.separator();
+            ui.label(RichText::new("Histogram of").small().color(theme::colours().muted));
+            ui.radio_value(&mut self.all_frames, false, "This frame");
+            let hint = "Of the frames in memory, marked on the timeline; none is read for it";
+            ui.radio_value(&mut self.all_frames, true, "All loaded frames").on_hover_text(hint);
+        }
+    }
+
+    /// The histogram that is asked for.
+    fn behind(&self, session: &mut Session) -> Behind {
+        let role = session.role_of_opacity();
+        session.wants_pool |= self.pools(session);
+        let histogram = match self.pools(session) {
+            true => session.pool.histogram().map(|(histogram, _)| histogram),
+            false => session.distribution(role).and_then(|found| found.histogram.clone()),
+        };
+        let (range, scale) = (session.range_of(role), session.scale(role));
+        let edges = histogram.as_ref().zip(range).map(|(histogram, range)| histogram.edges(range, scale));
+        Behind {
+            edges: edges.unwrap_or_default(),
+            bars: histogram.map(|histogram| histogram.bars).unwrap_or_default(),
+            plain_counts: self.plain_counts,
+            colourless: role == Role::Opacity,
+        }
+    }
+
+    /// Whether the histogram is that of all frames in memory.
+    fn pools(&self, session: &Session) -> bool {
+        self.all_frames && session.playback.count() > 1
+    }
+
+    /// What stands over the canvas: the field of the opacity, and what the histogram is of, where that is not
+    /// as usual.
+    fn caption(&self, session: &Session) -> Option<String> {
+        let name = session.opacity_field().and_then(|name| name.or_else(|| session.shown_quantity()));
+        let by = name.map(|name| format!("Opacity by {name}"));
+        let of = self.pools(session).then(|| {
+            let frames = session.pool.histogram().map_or(0, |(_, frames)| frames);
+            format!("Histogram of {frames} frame{}", if frames == 1 { "" } else { "s" })
+        });
+        let parts: Vec<String> = [by, of].into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| parts.join(" · "))
+    }
+
+    fn canvas(&mut self, ui: &mut Ui, session: &mut Session) {
+        let behind = self.behind(session);
+        if let Some(caption) = self.caption(session) {
+            let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 14.0), Sense::hover());
+            marks::caption(ui, rect, &caption);
+        }
+        let gap = if behind.colourless { WIDE_GAP } else { GAP };
+        let height = CANVAS_HEIGHT + gap + STRIP_HEIGHT + NODES_HEIGHT;
         let size = vec2(ui.available_width(), height);
         let (outer, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         accessible::drawing(&response, "Transfer function");
         let inner = Rect::from_min_size(outer.min, vec2(outer.width(), CANVAS_HEIGHT)).shrink(7.0);
         let axes = Axes { rect: inner, log: self.log };
-        let top = outer.top() + CANVAS_HEIGHT + 8.0;
+        let top = outer.top() + CANVAS_HEIGHT + gap;
         let strip = Strip {
             rect: Rect::from_x_y_ranges(inner.x_range(), top..=top + STRIP_HEIGHT),
             nodes: top + STRIP_HEIGHT + 0.5 * NODES_HEIGHT,
         };
         widgets::Areas::mark(ui, "transfer", inner);
         widgets::Areas::mark(ui, "colours", strip.rect);
+        let transfer = &mut session.view.transfer;
         self.edit(ui, &response, &axes, &strip, transfer);
         let under = response.hover_pos().and_then(|cursor| hit(transfer, &axes, &strip, cursor));
         let painter = ui.painter_at(outer.expand(2.0));
-        canvas::paint(&painter, &axes, &strip, transfer, bars, self.plain_counts);
-        canvas::paint_nodes(&painter, &axes, &strip, transfer, [self.selected, under]);
-        if under.is_some() || self.held.is_some() {
-            ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
-        } else if let Some(cursor) = response.hover_pos() {
-            let named = transfer.map.as_ref().and_then(|map| map.name.as_deref());
-            let hint = match named.filter(|_| strip.holds(cursor)) {
-                Some(name) => format!("The colours of {name}; to edit them, choose “own nodes” above"),
-                None if strip.holds(cursor) => "Double click adds a colour, right click removes one".into(),
-                None => "Double click adds a node of opacity, right click removes one".into(),
-            };
-            response.on_hover_text_at_pointer(hint);
+        canvas::paint(&painter, &axes, &strip, transfer, &behind);
+        canvas::paint_nodes(&painter, &axes, &strip, transfer, &behind, [self.selected, under]);
+        if behind.colourless {
+            let between = Rect::from_x_y_ranges(outer.x_range(), outer.top() + CANVAS_HEIGHT + 2.0..=top);
+            marks::show(ui, session, Role::Opacity, between);
+            let colour = session.shown_quantity().unwrap_or_default();
+            marks::caption(ui, between, &format!("Colour by {colour}"));
         }
+        self.explain(ui, session, response, &strip, under.is_some());
+    }
+
+    /// What the mouse can do here.
+    fn explain(&self, ui: &Ui, session: &Session, response: Response, strip: &Strip, on_node: bool) {
+        if on_node || self.held.is_some() {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
+            return;
+        }
+        let Some(cursor) = response.hover_pos() else { return };
+        let named = session.view.transfer.map.as_ref().and_then(|map| map.name.as_deref());
+        let hint = match named.filter(|_| strip.holds(cursor)) {
+            Some(name) => format!("The colours of {name}; to edit them, choose “own nodes” above"),
+            None if strip.holds(cursor) => "Double click adds a colour, right click removes one".into(),
+            None => {
+                "Double click adds a node of opacity, right click removes one; Shift moves it finely".into()
+            }
+        };
+        response.on_hover_text_at_pointer(hint);
     }
 
     fn edit(
@@ -121,19 +204,19 @@ impl TransferEditor {
         let cursor = response.interact_pointer_pos();
         if response.drag_started_by(PointerButton::Primary) {
             let pressed = ui.input(|input| input.pointer.press_origin());
-            self.held = pressed.and_then(|place| hit(transfer, axes, strip, place));
-            self.selected = self.held.or(self.selected);
+            self.held = pressed.and_then(|cursor| {
+                let node = hit(transfer, axes, strip, cursor)?;
+                Some(Held { node, place: place(transfer, axes, strip, node)?, cursor })
+            });
+            self.selected = self.held.map(|held| held.node).or(self.selected);
         }
-        if let (Some(node), Some(cursor)) = (self.held, cursor)
-            && response.dragged()
-        {
-            let (u, opacity) = axes.at(cursor);
-            match node {
-                Node::Opacity(index) if index < transfer.points.len() => {
-                    edit::move_opacity(transfer, index, u, opacity);
-                }
-                Node::Colour(index) => edit::move_colour(transfer, index, u),
-                Node::Opacity(_) => {}
+        if let (Some(held), Some(cursor)) = (&mut self.held, cursor.filter(|_| response.dragged())) {
+            let speed = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
+            let way = speed * (cursor - held.cursor);
+            (held.place, held.cursor) = (held.place + way, cursor);
+            // A press that has not moved yet leaves the last digit of a number alone.
+            if way != egui::Vec2::ZERO {
+                put(transfer, axes, *held);
             }
         }
         if response.drag_stopped() {
@@ -173,32 +256,22 @@ fn hit(transfer: &TransferView, axes: &Axes, strip: &Strip, cursor: Pos2) -> Opt
     }
 }
 
-/// Values along the axis.
-fn marks(ui: &mut Ui, session: &Session) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 14.0), Sense::hover());
-    let Some(range) = session.range() else { return };
-    let rect = rect.shrink2(vec2(7.0, 0.0));
-    let font = egui::FontId::monospace(11.0);
-    let mut free = f32::NEG_INFINITY;
-    let marks = ticks(range, session.view.quantity.scale);
-    // The ends first: what lies between goes where there is room.
-    let width = |text: &str| 6.8 * text.chars().count() as f32;
-    let last = marks.last().map_or(0.0, |mark| width(&mark.label));
-    for mark in &marks {
-        let wide = width(&mark.label);
-        let left = (rect.left() + mark.share * rect.width() - 0.5 * wide)
-            .clamp(rect.left(), (rect.right() - wide).max(rect.left()));
-        let is_last = std::ptr::eq(mark, marks.last().unwrap_or(mark));
-        if left < free || (!is_last && left + wide + 10.0 > rect.right() - last) {
-            continue;
+/// Where a node is on the screen.
+fn place(transfer: &TransferView, axes: &Axes, strip: &Strip, node: Node) -> Option<Pos2> {
+    match node {
+        Node::Opacity(index) => transfer.points.get(index).map(|point| axes.place(point)),
+        Node::Colour(index) => edit::colour_nodes(transfer)?.get(index).map(|node| strip.place(node.u)),
+    }
+}
+
+/// Moves a node to where it is held.
+fn put(transfer: &mut TransferView, axes: &Axes, held: Held) {
+    let (u, opacity) = axes.at(held.place);
+    match held.node {
+        Node::Opacity(index) if index < transfer.points.len() => {
+            edit::move_opacity(transfer, index, u, opacity);
         }
-        ui.painter().text(
-            pos2(left, rect.top()),
-            egui::Align2::LEFT_TOP,
-            &mark.label,
-            font.clone(),
-            theme::colours().muted,
-        );
-        free = left + wide + 10.0;
+        Node::Colour(index) => edit::move_colour(transfer, index, u),
+        Node::Opacity(_) => {}
     }
 }

@@ -4,7 +4,7 @@
 use egui::{RichText, Ui};
 use renderer::OutsideView;
 
-use crate::viewer::session::Session;
+use crate::viewer::session::{Role, Session};
 use crate::viewer::{theme, widgets};
 
 use super::transfer_edit as edit;
@@ -30,13 +30,11 @@ pub fn node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>, fin
 
 fn opacity_node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>, index: usize, fine: bool) {
     let point = session.view.transfer.points[index];
-    let moved = place(ui, session, point.u);
+    let moved = place(ui, session, session.role_of_opacity(), point.u);
     let transfer = &mut session.view.transfer;
     widgets::row(ui, "Opacity", |ui| {
         let mut opacity = point.opacity;
-        let speed = if fine { 0.02 * opacity.max(0.001) } else { 0.003 };
-        let field = egui::DragValue::new(&mut opacity).range(0.0..=1.0).speed(speed);
-        let field = ui.add(field.min_decimals(3).max_decimals(5)).accessible_name("Opacity");
+        let field = ui.add(opacity_number(&mut opacity, fine)).accessible_name("Opacity");
         if field.changed() || moved.is_some() {
             edit::move_opacity(transfer, index, moved.unwrap_or(point.u), opacity);
         }
@@ -53,7 +51,7 @@ fn opacity_node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>,
 
 fn colour_node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>, index: usize) {
     let Some(nodes) = edit::colour_nodes(&session.view.transfer) else { return };
-    let moved = place(ui, session, nodes[index].u);
+    let moved = place(ui, session, Role::Colour, nodes[index].u);
     let transfer = &mut session.view.transfer;
     if let Some(u) = moved {
         edit::move_colour(transfer, index, u);
@@ -70,9 +68,18 @@ fn colour_node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>, 
     });
 }
 
-/// Where a node is: its value, and that as a share of the range. Returns the share where it was changed.
-fn place(ui: &mut Ui, session: &Session, u: f32) -> Option<f32> {
-    let (range, scale) = (session.range(), session.view.quantity.scale);
+/// An opacity to as many digits as it has, however small it is. `fine`: whether it is dragged in proportion to
+/// its size.
+fn opacity_number(opacity: &mut f32, fine: bool) -> egui::DragValue<'_> {
+    let speed = if fine { 0.02 * opacity.max(1e-5) } else { 0.003 };
+    let number = egui::DragValue::new(opacity).range(0.0..=1.0).speed(speed).max_decimals(9);
+    number.custom_formatter(|opacity, _| widgets::short(opacity))
+}
+
+/// Where a node is: its value of the field that has a role, and that as a share of the range. Returns the share
+/// where it was changed.
+fn place(ui: &mut Ui, session: &Session, role: Role, u: f32) -> Option<f32> {
+    let (range, scale) = (session.range_of(role), session.scale(role));
     let mut moved = None;
     widgets::row(ui, "Value", |ui| {
         if let Some(range @ [low, high]) = range.filter(|[low, high]| low < high) {
@@ -98,6 +105,8 @@ pub fn outside(ui: &mut Ui, session: &mut Session) {
     let ends = session.view.transfer.function().map(|function| [0.0, 1.0].map(|u| function.sample(u)));
     let ends = ends.unwrap_or_default();
     let quantity = &mut session.view.quantity;
+    // With a field of its own, the opacity knows nothing of this range.
+    let with_opacity = quantity.opacity.is_none();
     for (label, side, end) in
         [("Below range", &mut quantity.below, ends[0]), ("Above range", &mut quantity.above, ends[1])]
     {
@@ -121,9 +130,10 @@ pub fn outside(ui: &mut Ui, session: &mut Session) {
             if button.accessible_name(format!("{label}: colour")).changed() {
                 *rgb = shown.map(|channel| channel.clamp(0.0, 1.0));
             }
-            let field = egui::DragValue::new(opacity).range(0.0..=1.0).speed(0.003);
-            let field = ui.add(field.min_decimals(3).max_decimals(5));
-            field.on_hover_text("Opacity").accessible_name(format!("{label}: opacity"));
+            if with_opacity {
+                let field = ui.add(opacity_number(opacity, false));
+                field.on_hover_text("Opacity").accessible_name(format!("{label}: opacity"));
+            }
         });
     }
 }

@@ -22,7 +22,7 @@ struct Moment {
     view: View,
     camera: Option<OrbitCamera>,
     range_sources: [RangeSource; 2],
-    quantiles: [f64; 2],
+    quantiles: [[f64; 2]; 2],
     fits_window: bool,
 }
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 use renderer::Scale;
 
 use super::Session;
-use crate::viewer::analysis::distribution::Analysis;
+use crate::viewer::analysis::distribution::{Analysis, Axis, Distribution};
 use crate::viewer::analysis::survey::{Field, Found};
 
 /// Where the range of the transfer function comes from.
@@ -23,6 +23,14 @@ pub enum RangeSource {
     Fixed,
 }
 
+/// What a field decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The colour; and the opacity, where there is no other field for that.
+    Colour,
+    Opacity,
+}
+
 /// What is to become of looking through all frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Survey {
@@ -36,19 +44,19 @@ pub enum Survey {
 
 /// What is known of values in several frames.
 pub struct Ranges {
-    /// Shares of the particles below and above which values are left out.
-    pub quantiles: [f64; 2],
+    /// Shares of the particles below and above which values are left out, by role.
+    pub quantiles: [[f64; 2]; 2],
     pub survey: Survey,
     /// Extremes of each field, and the frames that they are of.
     seen: HashMap<Field, ([f64; 2], BTreeSet<usize>)>,
-    /// Values at the quantiles, in the frame that was counted last.
-    between: Option<(Field, [f64; 2])>,
+    /// Values at the quantiles, in the frame that was counted last, by role.
+    between: [Option<(Field, [f64; 2])>; 2],
 }
 
 impl Default for Ranges {
     fn default() -> Self {
-        let quantiles = [0.01, 0.99];
-        Ranges { quantiles, survey: Survey::Idle, seen: HashMap::new(), between: None }
+        let quantiles = [[0.01, 0.99]; 2];
+        Ranges { quantiles, survey: Survey::Idle, seen: HashMap::new(), between: [None, None] }
     }
 }
 
@@ -105,20 +113,37 @@ impl Session {
         quantity.opacity.as_ref().map(|opacity| opacity.name.clone().or_else(|| quantity.name.clone()))
     }
 
-    /// The field that is shown, on its scale.
-    fn shown_field(&self) -> Field {
-        (self.view.quantity.name.clone(), self.view.quantity.scale)
+    /// The field that has a role, on its scale.
+    pub(super) fn field_of(&self, role: Role) -> Option<Field> {
+        let quantity = &self.view.quantity;
+        match role {
+            Role::Colour => Some((quantity.name.clone(), quantity.scale)),
+            Role::Opacity => Some((self.opacity_field()?, quantity.opacity.as_ref()?.scale)),
+        }
+    }
+
+    /// The role of the field at which opacities are read.
+    pub fn role_of_opacity(&self) -> Role {
+        if self.view.quantity.opacity.is_some() { Role::Opacity } else { Role::Colour }
+    }
+
+    /// What is to be counted of the field that has a role, where `range` is what the view says.
+    pub(super) fn axis(&self, role: Role, range: Option<[f64; 2]>) -> Option<Axis> {
+        let (field, scale) = self.field_of(role)?;
+        let source = [self.range_source, self.opacity_source][role as usize];
+        let quantiles = (source == RangeSource::Quantiles).then_some(self.ranges.quantiles[role as usize]);
+        Some(Axis { field, range, scale, quantiles })
     }
 
     /// Takes note of what was counted in a frame.
     pub(super) fn see(&mut self, analysis: &Analysis) {
-        let field = (analysis.quantity.clone(), analysis.scale);
-        if let Some(between) = analysis.between {
-            self.ranges.between = Some((field.clone(), between));
-        }
-        let opacity = analysis.opacity.clone().map(|(name, extremes)| ((name, Scale::Linear), extremes));
-        for (field, extremes) in [Some((field, analysis.extremes)), opacity].into_iter().flatten() {
-            if let Some(extremes) = extremes {
+        for (role, found) in [Some(&analysis.colour), analysis.opacity.as_ref()].into_iter().enumerate() {
+            let Some(found) = found else { continue };
+            let field = (found.axis.field.clone(), found.axis.scale);
+            if let Some(between) = found.between {
+                self.ranges.between[role] = Some((field.clone(), between));
+            }
+            if let Some(extremes) = found.extremes {
                 self.ranges.see(analysis.index, field, extremes);
             }
         }
@@ -131,53 +156,74 @@ impl Session {
         }
     }
 
-    /// Of how many frames the extremes of the field that is shown are known.
-    pub fn frames_seen(&self) -> usize {
-        self.ranges.seen.get(&self.shown_field()).map_or(0, |(_, frames)| frames.len())
+    /// Of how many frames the extremes of the field that has a role are known.
+    pub fn frames_seen(&self, role: Role) -> usize {
+        let seen = self.field_of(role).and_then(|field| self.ranges.seen.get(&field));
+        seen.map_or(0, |(_, frames)| frames.len())
     }
 
-    /// The range in effect, where it is known.
+    /// What was counted of the field that has a role, in the frame that was counted last.
+    pub fn distribution(&self, role: Role) -> Option<&Distribution> {
+        let analysis = self.analysis.as_ref()?;
+        match role {
+            Role::Colour => Some(&analysis.colour),
+            Role::Opacity => {
+                let field = self.field_of(role)?;
+                let found = analysis.opacity.as_ref()?;
+                (found.axis.field == field.0 && found.axis.scale == field.1).then_some(found)
+            }
+        }
+    }
+
+    /// The scale of the field that has a role.
+    pub fn scale(&self, role: Role) -> Scale {
+        self.field_of(role).map_or(Scale::Linear, |(_, scale)| scale)
+    }
+
+    /// The range in effect of the field that is shown, where it is known.
     pub fn range(&self) -> Option<[f64; 2]> {
-        let extremes = || self.analysis.as_ref().and_then(|analysis| analysis.extremes);
-        self.complete_view().quantity.range.or_else(extremes)
+        self.range_of(Role::Colour)
     }
 
-    /// The extremes in this frame of the field that decides the opacity.
-    pub fn opacity_extremes(&self) -> Option<[f64; 2]> {
-        let (field, extremes) = self.analysis.as_ref()?.opacity.as_ref()?;
-        extremes.filter(|_| self.opacity_field().as_ref() == Some(field))
+    /// The range in effect of the field that has a role, where there is one and it is known.
+    pub fn range_of(&self, role: Role) -> Option<[f64; 2]> {
+        let quantity = self.complete_view().quantity;
+        let settled = match role {
+            Role::Colour => quantity.range,
+            Role::Opacity => quantity.opacity?.range,
+        };
+        settled.or_else(|| self.distribution(role)?.extremes)
     }
 
-    /// The range in effect of that field, where there is one and it is known.
-    pub fn opacity_range(&self) -> Option<[f64; 2]> {
-        self.complete_view().quantity.opacity?.range.or_else(|| self.opacity_extremes())
-    }
-
-    /// What the view is to say of a field's range.
-    pub(super) fn settled_range(
-        &self,
-        source: RangeSource,
-        field: Field,
-        by_hand: Option<[f64; 2]>,
-    ) -> Option<[f64; 2]> {
-        match source {
+    /// What the view is to say of the range of the field that has a role, which it says is `by_hand`.
+    pub(super) fn settled_range(&self, role: Role, by_hand: Option<[f64; 2]>) -> Option<[f64; 2]> {
+        let field = self.field_of(role)?;
+        match [self.range_source, self.opacity_source][role as usize] {
             RangeSource::Frame => None,
             RangeSource::Seen => self.ranges.seen.get(&field).map(|(extremes, _)| *extremes),
             RangeSource::Quantiles => {
-                self.ranges.between.as_ref().filter(|(of, _)| *of == field).map(|(_, between)| *between)
+                let known = self.ranges.between[role as usize].as_ref();
+                known.filter(|(of, _)| *of == field).map(|(_, between)| *between)
             }
             RangeSource::Fixed => by_hand,
         }
     }
 
-    /// Shows the quantity on another scale. A range by hand that has no place there is given up.
-    pub fn set_scale(&mut self, scale: Scale) {
-        self.view.quantity.scale = scale;
-        let impossible = self.view.quantity.range.is_some_and(|[low, _]| low <= 0.0);
-        if scale == Scale::Log && impossible {
-            self.view.quantity.range = None;
-            if self.range_source == RangeSource::Fixed {
-                self.range_source = RangeSource::Frame;
+    /// Shows the field that has a role on another scale. A range by hand that has no place there is given up.
+    pub fn set_scale(&mut self, role: Role, to: Scale) {
+        let quantity = &mut self.view.quantity;
+        let (scale, range, source) = match (role, &mut quantity.opacity) {
+            (Role::Colour, _) => (&mut quantity.scale, &mut quantity.range, &mut self.range_source),
+            (Role::Opacity, Some(opacity)) => {
+                (&mut opacity.scale, &mut opacity.range, &mut self.opacity_source)
+            }
+            (Role::Opacity, None) => return,
+        };
+        *scale = to;
+        if to == Scale::Log && range.is_some_and(|[low, _]| low <= 0.0) {
+            *range = None;
+            if *source == RangeSource::Fixed {
+                *source = RangeSource::Frame;
             }
         }
     }

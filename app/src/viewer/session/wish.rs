@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use renderer::{AnnotationsView, PathView, Scale, View};
+use renderer::{AnnotationsView, PathView, View};
 
-use super::Session;
+use super::{Role, Session};
 use crate::viewer::render_thread::{Job, Looks};
 
 impl Session {
@@ -107,11 +107,10 @@ impl Session {
         if self.fits_window && self.room != [0, 0] {
             [view.image.width, view.image.height] = self.room;
         }
-        let quantity = &self.view.quantity;
-        view.quantity.range =
-            self.settled_range(self.range_source, (quantity.name.clone(), quantity.scale), quantity.range);
-        if let (Some(opacity), Some(field)) = (&mut view.quantity.opacity, self.opacity_field()) {
-            opacity.range = self.settled_range(self.opacity_source, (field, Scale::Linear), opacity.range);
+        let quantity = &mut view.quantity;
+        quantity.range = self.settled_range(Role::Colour, quantity.range);
+        if let Some(opacity) = &mut quantity.opacity {
+            opacity.range = self.settled_range(Role::Opacity, opacity.range);
         }
         view
     }
