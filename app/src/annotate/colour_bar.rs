@@ -3,38 +3,18 @@
 use crate::image_file::to_srgb;
 
 use super::Subject;
-use super::drawing::{Drawing, END, MIDDLE};
-use super::ticks::ticks;
+use super::bars::Bar;
+use super::drawing::Drawing;
 
 /// Colours along the bar.
 const STEPS: usize = 65;
-/// Sizes in letters: the bar's width and largest height, and its distance from the picture's edge.
+/// In letters.
 const WIDTH: f32 = 0.95;
-const HEIGHT: f32 = 16.0;
-const EDGE: f32 = 1.4;
 
-/// Draws it at the right edge, in a picture that has room for it.
-pub fn draw(drawing: &mut Drawing, subject: &Subject, label: &str) {
-    let Some(range) = subject.range else { return };
-    let sheet = drawing.sheet;
-    let em = sheet.em;
-    let height = (HEIGHT * em).min(sheet.height - 7.0 * em);
-    if height < 5.0 * em || sheet.width < 16.0 * em {
-        return;
-    }
-    let right = (sheet.width - EDGE * em).round();
-    let left = right - (WIDTH * em).round();
-    let top = (0.5 * (sheet.height - height)).round();
-    let bottom = (top + height).round();
-    drawing.gradient([left, top], [right, bottom], colours(subject));
-    let letters = drawing.palette().letters;
-    for tick in ticks(range, subject.scale) {
-        let y = bottom - tick.share * (bottom - top);
-        drawing.line([left - 0.35 * em, y], [left, y], 0.6, letters);
-        drawing.text([left - 0.6 * em, y], [END, MIDDLE], 0.92, &tick.label, letters);
-    }
-    let name = if label.is_empty() { subject.quantity.as_deref().unwrap_or_default() } else { label };
-    drawing.text([right, top - 1.0 * em], [END, END], 1.0, name, letters);
+pub fn draw(drawing: &mut Drawing, subject: &Subject, bar: &Bar) {
+    let corners = bar.corners(drawing.sheet, WIDTH);
+    drawing.gradient(corners[0], corners[1], colours(subject));
+    bar.rule(drawing, corners);
 }
 
 /// sRGB from u = 0 to u = 1.

@@ -19,6 +19,9 @@ pub enum Shape {
     Line { from: [f32; 2], to: [f32; 2], width: f32, colour: [u8; 4] },
     /// A rectangle whose colours run, evenly spaced, from its lower end to its upper one.
     Gradient { min: [f32; 2], max: [f32; 2], colours: Vec<[u8; 3]> },
+    /// What lies between the left side of a rectangle and a curve, which goes through these shares of its width,
+    /// evenly spaced from its lower end to its upper one.
+    Area { min: [f32; 2], max: [f32; 2], shares: Vec<f32>, colour: [u8; 4] },
 }
 
 /// The picture's size in pixels, and the size of its letters.
@@ -136,6 +139,20 @@ impl Drawing {
 
     /// A rectangle of colours with a thin edge.
     pub fn gradient(&mut self, min: [f32; 2], max: [f32; 2], colours: Vec<[u8; 3]>) {
+        self.edge(min, max);
+        self.shapes.push(Shape::Gradient { min, max, colours });
+    }
+
+    /// What lies left of a curve, on a ground with a thin edge.
+    pub fn area(&mut self, min: [f32; 2], max: [f32; 2], shares: Vec<f32>) {
+        self.edge(min, max);
+        let [r, g, b, _] = self.palette.halo;
+        self.shapes.push(Shape::Area { min, max, shares: vec![1.0; 2], colour: [r, g, b, 0x90] });
+        let [r, g, b, _] = self.palette.letters;
+        self.shapes.push(Shape::Area { min, max, shares, colour: [r, g, b, 0xd0] });
+    }
+
+    fn edge(&mut self, min: [f32; 2], max: [f32; 2]) {
         let edge = 0.5 * (self.sheet.em / 10.0).max(1.0);
         let [r, g, b, _] = self.palette.halo;
         let [left, top, right, bottom] = [min[0] - edge, min[1] - edge, max[0] + edge, max[1] + edge];
@@ -147,7 +164,6 @@ impl Drawing {
         ] {
             self.shapes.push(Shape::Line { from, to, width: 2.0 * edge, colour: [r, g, b, 0xb0] });
         }
-        self.shapes.push(Shape::Gradient { min, max, colours });
     }
 }
 

@@ -5,9 +5,11 @@
 //! finished picture.
 
 mod axes;
+mod bars;
 mod colour_bar;
 mod drawing;
 mod onto;
+mod opacity_bar;
 mod raster;
 mod scale_bar;
 mod stamp;
@@ -32,6 +34,8 @@ pub struct Subject<'a> {
     /// The values at both ends of the transfer function, where they are known.
     pub range: Option<[f64; 2]>,
     pub scale: Scale,
+    /// Of the field that decides the opacity, where that is another one.
+    pub opacity: Option<OpacityAxis>,
     /// Over u, from the low end of the range to the high one.
     pub transfer: &'a TransferFunction,
     pub time: Option<f64>,
@@ -43,6 +47,13 @@ pub struct Subject<'a> {
     pub target_depth: f64,
     /// Behind the picture, in linear light.
     pub background: Option<[f32; 3]>,
+}
+
+/// The field at which opacities are read, and the values at both ends of the transfer function.
+pub struct OpacityAxis {
+    pub name: String,
+    pub range: [f64; 2],
+    pub scale: Scale,
 }
 
 /// The annotations of one saved picture.
@@ -59,10 +70,18 @@ impl Annotations {
         let size = [scene.width, scene.height].map(f64::from);
         let camera = camera_path::settled(view, &scene.particles);
         let transfer = view.transfer.function().ok()?;
+        let quantity = view.quantity.name.clone().or_else(|| Selection::default_of(frame).name());
+        let opacity = view.quantity.opacity.as_ref().zip(scene.quantity.opacity_placement());
+        let opacity = opacity.map(|(opacity, placement)| OpacityAxis {
+            name: opacity.name.clone().or_else(|| quantity.clone()).unwrap_or_default(),
+            range: placement.range(),
+            scale: placement.scale(),
+        });
         let subject = Subject {
-            quantity: view.quantity.name.clone().or_else(|| Selection::default_of(frame).name()),
+            quantity,
             range: Some(scene.quantity.range()),
             scale: scene.quantity.placement().scale(),
+            opacity,
             transfer: &transfer,
             time: frame.metadata.time,
             frame: number,
@@ -90,9 +109,7 @@ pub fn drawing(look: &AnnotationsView, subject: &Subject) -> Drawing {
     let size = [subject.projection.width as f32, subject.projection.height as f32];
     let sheet = Sheet::new(size, look.size);
     let mut drawing = Drawing::new(sheet, Palette::new(look.ink, subject.background));
-    if look.colour_bar {
-        colour_bar::draw(&mut drawing, subject, &look.quantity_label);
-    }
+    bars::draw(&mut drawing, subject, look);
     if look.axes {
         axes::draw(&mut drawing, subject);
     }

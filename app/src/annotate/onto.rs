@@ -72,7 +72,7 @@ mod tests {
     use renderer::{AnnotationsView, CameraView, TransferFunction, View};
 
     use super::*;
-    use crate::annotate::{Subject, drawing};
+    use crate::annotate::{OpacityAxis, Subject, drawing};
     use crate::image_file::to_srgb8;
     use crate::projection::Projection;
 
@@ -108,6 +108,11 @@ mod tests {
         };
         let subject = Subject {
             scale: renderer::Scale::Linear,
+            opacity: Some(OpacityAxis {
+                name: "speed".into(),
+                range: [0.01, 10.0],
+                scale: renderer::Scale::Log,
+            }),
             quantity: Some("density".into()),
             range: Some([0.0, 1.0]),
             transfer: &transfer,
@@ -172,6 +177,7 @@ mod tests {
             AnnotationsView { frame_number: true, ..clear.clone() },
             AnnotationsView { scale_bar: true, ..clear.clone() },
             AnnotationsView { title: "A".into(), ..clear.clone() },
+            AnnotationsView { opacity_bar: true, ..clear.clone() },
         ];
         let lit = items.map(|look| {
             let pixels = drawn(&look, [0.0, 0.0, 0.0, 1.0], black, Format::Png);
@@ -179,7 +185,7 @@ mod tests {
             assert!(lit.iter().filter(|lit| **lit).count() > 10, "{look:?}");
             lit
         });
-        for (a, b) in [(0, 1), (1, 4), (0, 5), (2, 5), (0, 4)] {
+        for (a, b) in [(0, 1), (1, 4), (0, 5), (2, 5), (0, 4), (1, 6), (4, 6), (5, 6)] {
             let both = lit[a].iter().zip(&lit[b]).filter(|(a, b)| **a && **b).count();
             assert_eq!(both, 0, "items {a} and {b} lie over one another");
         }

@@ -26,6 +26,10 @@ pub fn raster(drawing: &Drawing, size: [usize; 2], mut cover: impl FnMut([usize;
             Shape::Gradient { min, max, colours } => fill(*min, *max, size, |place, up| {
                 cover(place, at(colours, up), 1.0);
             }),
+            Shape::Area { min, max, shares, colour } => fill(*min, *max, size, |place, up| {
+                let end = min[0] + share_at(shares, up) * (max[0] - min[0]);
+                paint(&mut cover, place, *colour, (end - place[0] as f32).clamp(0.0, 1.0));
+            }),
         }
     }
 }
@@ -105,6 +109,18 @@ fn fill(min: [f32; 2], max: [f32; 2], size: [usize; 2], mut cover: impl FnMut([u
     }
 }
 
+/// The value at a share of the way from the first of `shares` to the last.
+fn share_at(shares: &[f32], up: f32) -> f32 {
+    let last = shares.len().saturating_sub(1);
+    let place = up * last as f32;
+    let below = (place as usize).min(last.saturating_sub(1));
+    match (shares.get(below), shares.get(below + 1)) {
+        (Some(low), Some(high)) => low + (place - below as f32) * (high - low),
+        (Some(only), None) => *only,
+        _ => 0.0,
+    }
+}
+
 /// The colour at a share of the way from the first of `colours` to the last.
 fn at(colours: &[[u8; 3]], share: f32) -> [u8; 3] {
     let last = colours.len().saturating_sub(1);
@@ -121,7 +137,10 @@ fn at(colours: &[[u8; 3]], share: f32) -> [u8; 3] {
 
 #[cfg(test)]
 mod tests {
+    use renderer::Ink;
+
     use super::*;
+    use crate::annotate::drawing::{Palette, Sheet};
 
     /// How much of each pixel of 8 × 6 a stroke covers.
     fn covered(from: [f32; 2], to: [f32; 2], width: f32) -> [[f32; 8]; 6] {
@@ -141,6 +160,18 @@ mod tests {
         }
         // What lies outside the picture is left out.
         assert_eq!(covered([-9.0, 2.5], [99.0, 2.5], 1.0)[2], [1.0; 8]);
+    }
+
+    #[test]
+    fn an_area_ends_at_its_curve() {
+        let mut drawing = Drawing::new(Sheet::new([8.0, 4.0], 1.0), Palette::new(Ink::Light, None));
+        let (min, max, colour) = ([1.0, 0.0], [7.0, 4.0], [9, 9, 9, 255]);
+        drawing.shapes.push(Shape::Area { min, max, shares: vec![0.0, 1.0], colour });
+        let mut covered = [[0.0; 8]; 4];
+        raster(&drawing, [8, 4], |[x, y], _, share| covered[y][x] = share);
+        let rows = covered.map(|row| row.iter().sum::<f32>());
+        assert_eq!(rows, [5.25, 3.75, 2.25, 0.75]);
+        assert_eq!((covered[0][0], covered[0][1], covered[0][6], covered[0][7]), (0.0, 1.0, 0.25, 0.0));
     }
 
     #[test]

@@ -13,6 +13,9 @@ pub struct AnnotationsView {
     pub in_pictures: bool,
     /// The colours of the transfer function with the values that they stand for.
     pub colour_bar: bool,
+    /// The opacities of the transfer function with the values that they stand for, where those are of another
+    /// field.
+    pub opacity_bar: bool,
     /// Small axes: which way the scene is turned.
     pub axes: bool,
     /// The frame's time, where it has one.
@@ -27,6 +30,9 @@ pub struct AnnotationsView {
     /// Written over the colour bar in place of the quantity's name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub quantity_label: String,
+    /// Written over the bar of the opacities in place of the name of their field.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub opacity_label: String,
     /// Written behind lengths, such as `m`: files do not say.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub length_unit: String,
@@ -54,12 +60,14 @@ impl Default for AnnotationsView {
         AnnotationsView {
             in_pictures: true,
             colour_bar: false,
+            opacity_bar: false,
             axes: false,
             time: false,
             frame_number: false,
             scale_bar: false,
             title: String::new(),
             quantity_label: String::new(),
+            opacity_label: String::new(),
             length_unit: String::new(),
             time_unit: String::new(),
             size: 1.0,
@@ -76,7 +84,13 @@ impl AnnotationsView {
 
     /// What the window shows of a view that has no annotations: it is not saved with pictures.
     pub fn of_window() -> AnnotationsView {
-        AnnotationsView { in_pictures: false, colour_bar: true, axes: true, ..AnnotationsView::default() }
+        AnnotationsView {
+            in_pictures: false,
+            colour_bar: true,
+            opacity_bar: true,
+            axes: true,
+            ..AnnotationsView::default()
+        }
     }
 
     pub(super) fn validate(&self) -> Result<(), ViewError> {
@@ -87,6 +101,7 @@ impl AnnotationsView {
         let texts = [
             ("annotations.title", &self.title),
             ("annotations.quantity_label", &self.quantity_label),
+            ("annotations.opacity_label", &self.opacity_label),
             ("annotations.length_unit", &self.length_unit),
             ("annotations.time_unit", &self.time_unit),
         ];

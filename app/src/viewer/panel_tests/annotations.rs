@@ -2,6 +2,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use renderer::{AnnotationsView, Ink, Stats};
 
+use super::transfer::by_density;
 use super::{assert_written, fluid, panel, pictured, texts};
 use crate::viewer::panels::annotations;
 use crate::viewer::session::Session;
@@ -31,6 +32,21 @@ fn what_is_switched_off_leaves_saved_pictures_alone() {
     let mut harness = panel(fluid(), annotations::show);
     let look = click(&mut harness, "Colour bar").unwrap();
     assert!(!look.colour_bar && !look.in_pictures);
+}
+
+#[test]
+fn the_opacity_has_a_bar_where_it_has_a_field() {
+    let mut harness = panel(fluid(), annotations::show);
+    assert!(harness.query_by_label("Opacity bar").is_none());
+    harness = panel(by_density(), annotations::show);
+    harness.get_by_label("Opacity title").focus();
+    harness.run();
+    harness.get_by_label("Opacity title").type_text("Density (kg/m³)");
+    harness.run();
+    assert_eq!(harness.state().annotations().opacity_label, "Density (kg/m³)");
+    let look = click(&mut harness, "Opacity bar").unwrap();
+    assert!(!look.opacity_bar && look.colour_bar);
+    assert!(click(&mut harness, "Opacity bar").unwrap().opacity_bar);
 }
 
 #[test]

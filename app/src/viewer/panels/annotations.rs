@@ -9,11 +9,16 @@ use crate::viewer::{theme, widgets};
 pub fn show(ui: &mut Ui, session: &mut Session) {
     let before = session.annotations();
     let mut look = before.clone();
-    items(ui, &mut look);
+    let two_fields = session.view.quantity.opacity.is_some();
+    items(ui, &mut look, two_fields);
     text(ui, "Title", &mut look.title, "Above the scene", "Written at the upper edge of the picture");
     if look.colour_bar {
         let hint = "Written over the colour bar in place of the quantity's name, such as: Velocity (m/s)";
         text(ui, "Bar title", &mut look.quantity_label, "The quantity's name", hint);
+    }
+    if look.opacity_bar && two_fields {
+        let hint = "Written over the bar of the opacities in place of the name of their field";
+        text(ui, "Opacity title", &mut look.opacity_label, "The field's name", hint);
     }
     if look.scale_bar {
         let hint = "Written behind lengths. Files do not say in which unit they are";
@@ -47,7 +52,7 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     session.annotate(&before, look);
 }
 
-fn items(ui: &mut Ui, look: &mut AnnotationsView) {
+fn items(ui: &mut Ui, look: &mut AnnotationsView, two_fields: bool) {
     let mut pair = |label, left: (&mut bool, &str, &str), right: (&mut bool, &str, &str)| {
         widgets::row(ui, label, |ui| {
             let width = 0.5 * (ui.available_width() - theme::GAP);
@@ -70,11 +75,13 @@ fn items(ui: &mut Ui, look: &mut AnnotationsView) {
         (&mut look.time, "Time", "The frame's time, where its file tells one"),
         (&mut look.frame_number, "Frame", "The frame's number, counted from 0"),
     );
-    widgets::row(ui, "", |ui| {
-        let hint =
-            "A round length at the target's depth: what is closer looks larger, what is farther smaller";
-        ui.checkbox(&mut look.scale_bar, "Scale bar").on_hover_text(hint);
-    });
+    let hint = "A round length at the target's depth: what is closer looks larger, what is farther smaller";
+    if two_fields {
+        let opacity = "How opaque which value of the opacity's field is, as a curve";
+        pair("", (&mut look.opacity_bar, "Opacity bar", opacity), (&mut look.scale_bar, "Scale bar", hint));
+    } else {
+        widgets::row(ui, "", |ui| ui.checkbox(&mut look.scale_bar, "Scale bar").on_hover_text(hint));
+    }
 }
 
 fn text(ui: &mut Ui, label: &str, text: &mut String, nothing: &str, hint: &str) {

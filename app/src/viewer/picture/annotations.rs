@@ -4,18 +4,18 @@ use egui::epaint::Mesh;
 use egui::{Color32, FontId, Painter, Pos2, Rect, Shape as Painted, Stroke, Ui, pos2, vec2};
 use renderer::AnnotationsView;
 
-use crate::annotate::{self, Drawing, Shape, Subject};
-use crate::scene::Selection;
+use crate::annotate::{self, Drawing, OpacityAxis, Shape, Subject};
 
 use crate::viewer::orbit_camera::Screen;
-use crate::viewer::session::Session;
+use crate::viewer::session::{Role, Session};
 
-/// Draws what the session's view asks for over the picture at `rect`; without a colour bar where
-/// something else is explained in its place.
-pub fn show(ui: &Ui, session: &Session, rect: Rect, colour_bar: bool) {
+/// Draws what the session's view asks for over the picture at `rect`; without `bars` where something else is
+/// explained in their place.
+pub fn show(ui: &Ui, session: &Session, rect: Rect, bars: bool) {
     let scale = ui.pixels_per_point();
     let mut look = session.annotations();
-    look.colour_bar &= colour_bar && session.picture.is_some();
+    let bars = bars && session.picture.is_some();
+    (look.colour_bar, look.opacity_bar) = (look.colour_bar && bars, look.opacity_bar && bars);
     if let Some(drawing) = drawing(session, &look, rect.size() * scale) {
         paint(&ui.painter().with_clip_rect(rect), &drawing, rect.min, scale);
     }
@@ -25,12 +25,18 @@ fn drawing(session: &Session, look: &AnnotationsView, size: egui::Vec2) -> Optio
     let camera = session.camera?;
     let (index, frame) = session.frame()?;
     let transfer = session.view.transfer.function().ok()?;
-    let name = session.view.quantity.name.clone();
+    let name = session.opacity_field().map(|name| name.or_else(|| session.shown_quantity()));
+    let opacity = name.zip(session.range_of(Role::Opacity)).map(|(name, range)| OpacityAxis {
+        name: name.unwrap_or_default(),
+        range,
+        scale: session.scale(Role::Opacity),
+    });
     let [width, height] = [size.x, size.y].map(f64::from);
     let subject = Subject {
-        quantity: name.or_else(|| Selection::default_of(frame).name()),
+        quantity: session.shown_quantity(),
         range: session.range(),
         scale: session.view.quantity.scale,
+        opacity,
         transfer: &transfer,
         time: frame.metadata.time,
         frame: *index,
@@ -58,21 +64,25 @@ fn paint(painter: &Painter, drawing: &Drawing, corner: Pos2, scale: f32) {
                 painter.line_segment([place(*from), place(*to)], stroke);
             }
             Shape::Gradient { min, max, colours } => {
-                painter.add(Painted::mesh(gradient(Rect::from_min_max(place(*min), place(*max)), colours)));
+                let colours = colours.iter().map(|[r, g, b]| (1.0, Color32::from_rgb(*r, *g, *b)));
+                painter.add(Painted::mesh(bar(Rect::from_min_max(place(*min), place(*max)), colours)));
+            }
+            Shape::Area { min, max, shares, colour } => {
+                let shares = shares.iter().map(|share| (*share, srgba(*colour)));
+                painter.add(Painted::mesh(bar(Rect::from_min_max(place(*min), place(*max)), shares)));
             }
         }
     }
 }
 
-/// Colours that run from the lower end of `bar` to its upper one.
-fn gradient(bar: Rect, colours: &[[u8; 3]]) -> Mesh {
+/// Shares of a rectangle's width and colours that run, evenly spaced, from its lower end to its upper one.
+fn bar(rect: Rect, steps: impl ExactSizeIterator<Item = (f32, Color32)>) -> Mesh {
     let mut mesh = Mesh::default();
-    let last = colours.len().saturating_sub(1).max(1) as f32;
-    for (step, [r, g, b]) in (0_u32..).zip(colours) {
-        let y = bar.bottom() - step as f32 / last * bar.height();
-        let colour = Color32::from_rgb(*r, *g, *b);
-        mesh.colored_vertex(pos2(bar.left(), y), colour);
-        mesh.colored_vertex(pos2(bar.right(), y), colour);
+    let last = steps.len().saturating_sub(1).max(1) as f32;
+    for (step, (share, colour)) in (0_u32..).zip(steps) {
+        let y = rect.bottom() - step as f32 / last * rect.height();
+        mesh.colored_vertex(pos2(rect.left(), y), colour);
+        mesh.colored_vertex(pos2(rect.left() + share * rect.width(), y), colour);
         if step > 0 {
             let next = 2 * step;
             mesh.add_triangle(next - 2, next - 1, next);

@@ -85,9 +85,11 @@ impl Session {
             return;
         }
         let items = |look: &AnnotationsView| {
-            [look.colour_bar, look.axes, look.time, look.frame_number, look.scale_bar, !look.title.is_empty()]
+            let bars = [look.colour_bar, look.opacity_bar, look.scale_bar];
+            let others = [look.axes, look.time, look.frame_number, !look.title.is_empty()];
+            bars.into_iter().chain(others)
         };
-        let added = items(&look).iter().zip(items(before)).any(|(now, then)| *now && !then);
+        let added = items(&look).zip(items(before)).any(|(now, then)| now && !then);
         look.in_pictures |= added && self.view.annotations.is_none();
         self.view.annotations = Some(look);
     }
