@@ -177,10 +177,14 @@ pub fn quantity(frame: &Frame, particles: &ParticleSet, view: &QuantityView) -> 
 /// One line on the particles of a frame that are left out of its picture; `None` where all are in it.
 pub fn rejected_warning(frame: &Frame, particles: &ParticleSet, quantity: &Quantity) -> Option<String> {
     let Rejected { non_finite, bad_radius } = particles.rejected();
+    let lacking = match quantity.opacity_placement() {
+        None => "quantity not finite",
+        Some(_) => "quantity of colour or opacity not finite",
+    };
     let reasons = [
         (non_finite, "position or volume not finite"),
         (bad_radius, "support radius not positive and finite"),
-        (quantity.rejected(), "quantity not finite"),
+        (quantity.rejected(), lacking),
     ];
     let left_out: u64 = reasons.iter().map(|(count, _)| count).sum();
     let told: Vec<String> = reasons

@@ -104,7 +104,7 @@ fn another_field_may_decide_the_opacity() {
     let by_density = both(Some("density")).unwrap();
     assert_eq!((by_density.range(), opacity_range(&by_density)), ([0.0, 2.0], Some([5.0, 7.0])));
     let warning = rejected_warning(&frame, &set, &by_density).unwrap();
-    assert_eq!(warning, "2 of 4 particles are left out: quantity not finite (2)");
+    assert_eq!(warning, "2 of 4 particles are left out: quantity of colour or opacity not finite (2)");
     assert_eq!(opacity_range(&both(None).unwrap()), Some([0.0, 2.0]), "without a name, the same field");
     let message = both(Some("heat")).map(drop).unwrap_err().to_string();
     assert_eq!(message, "there is no field `heat`; there are: dye, rho");

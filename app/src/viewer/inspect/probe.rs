@@ -12,7 +12,8 @@ pub struct Probed {
     pub pixel: [u32; 2],
     pub divisor: u32,
     pub bundle: BundleDetail,
-    /// Where the values in the bundle's cells are on the axis of the transfer function.
+    /// Where the values in the bundle's cells, which are those that decide the opacity, are on the axis of the
+    /// transfer function.
     pub placement: Placement,
 }
 
@@ -31,7 +32,8 @@ impl Probed {
             return Ok(None);
         }
         let bundle = renderer.inspect_bundle(scene, bundle_of(pixel), progress)?;
-        let placement = *scene.quantity.placement();
+        let quantity = &scene.quantity;
+        let placement = *quantity.opacity_placement().unwrap_or(quantity.placement());
         Ok(Some(Probed { asked, pixel, divisor, bundle, placement }))
     }
 

@@ -173,7 +173,7 @@ fn histogram(painter: &Painter, axes: &Axes, behind: &Behind) {
 }
 
 fn grid(painter: &Painter, axes: &Axes) {
-    let steps: &[f32] = if axes.log { &[1.0, 0.1, 0.01, 0.001] } else { &[1.0, 0.75, 0.5, 0.25] };
+    let steps: &[f32] = if axes.log { &[1.0, 0.1, 0.01, 0.001, LOG_FLOOR] } else { &[1.0, 0.75, 0.5, 0.25] };
     let stroke = Stroke::new(1.0, theme::colours().line.gamma_multiply(0.5));
     for &opacity in steps {
         painter.hline(axes.rect.x_range(), axes.y(opacity), stroke);
@@ -210,7 +210,7 @@ fn outline(painter: &Painter, axes: &Axes, points: &[ControlPoint]) {
     let mut line = vec![pos2(axes.rect.left(), axes.y(first.opacity)), axes.place(first)];
     for pair in points.windows(2) {
         // On a logarithmic axis, a straight ramp is a curve.
-        let parts = if axes.log { 32 } else { 1 };
+        let parts = if axes.log { 64 } else { 1 };
         line.extend((1..=parts).map(|part| {
             let s = part as f32 / parts as f32;
             let u = pair[0].u + s * (pair[1].u - pair[0].u);

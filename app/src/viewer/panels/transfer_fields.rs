@@ -33,6 +33,8 @@ fn opacity_node(ui: &mut Ui, session: &mut Session, selected: &mut Option<Node>,
     let moved = place(ui, session, session.role_of_opacity(), point.u);
     let transfer = &mut session.view.transfer;
     widgets::row(ui, "Opacity", |ui| {
+        // Three things side by side.
+        (ui.spacing_mut().interact_size.x, ui.spacing_mut().item_spacing.x) = (56.0, 4.0);
         let mut opacity = point.opacity;
         let field = ui.add(opacity_number(&mut opacity, fine)).accessible_name("Opacity");
         if field.changed() || moved.is_some() {

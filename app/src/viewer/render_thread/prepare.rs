@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use renderer::{Bounds, ParticleSet, ParticleView, Placement, Quantity, Rejected, Scene, SelectView, View};
+use renderer::{Bounds, ParticleSet, ParticleView, Quantity, Rejected, Scene, SelectView, View};
 
 use crate::frames::Frame;
 use crate::scene::{self, Support};
@@ -20,8 +20,6 @@ pub struct Facts {
     pub support_radii: [f64; 2],
     /// What a view without a reference length stands for.
     pub reference_length: f64,
-    /// Which values are u = 0 and u = 1, and where they are on the device's axis.
-    pub placement: Placement,
     /// Where a fixed near or far cuts off particles in the picture: the depth that they begin, or end, at.
     pub cut: [Option<f64>; 2],
 }
@@ -59,7 +57,6 @@ impl Preparation {
             bounds: whole.bounds,
             support_radii: whole.support_radii,
             reference_length: renderer::default_reference_length(&particles),
-            placement: *quantity.placement(),
             cut: [None; 2],
         };
         let scene = Scene::new(particles, quantity, view)?;

@@ -1,5 +1,7 @@
 use std::path::PathBuf;
 
+use renderer::{OpacityView, Scale};
+
 use super::*;
 use crate::frames::Sequence;
 
@@ -121,6 +123,17 @@ fn a_look_into_the_picture_costs_no_other_picture() {
     job.looks = Looks::default();
     let plain = draw(&job);
     assert!(plain.cells.is_none() && plain.probed.is_none());
+}
+
+#[test]
+fn what_is_known_of_cells_is_on_the_axis_of_the_opacity() {
+    let Some((mut worker, frame, reports)) = worker() else { return };
+    let mut job = job(&frame, 40);
+    let log = OpacityView { range: Some([0.2, 0.9]), scale: Scale::Log, name: None };
+    (job.view.quantity.range, job.view.quantity.opacity) = (Some([0.0, 1.0]), Some(log));
+    job.looks = Looks { cells: true, probe: Some([20, 32]), shot: false };
+    let probed = pictures_of(&mut worker, &reports, &job).pop().unwrap().probed.unwrap();
+    assert_eq!((probed.placement.range(), probed.placement.scale()), ([0.2, 0.9], Scale::Log));
 }
 
 #[test]
