@@ -19,6 +19,7 @@ use crate::viewer::panels::inspector::Inspector;
 use crate::viewer::panels::sampling::SamplingPanel;
 use crate::viewer::panels::transfer_editor::TransferEditor;
 use crate::viewer::panels::{cells, measured_error, performance as panel, saved};
+use crate::viewer::picture::annotations;
 use crate::viewer::picture::overlay::Kind;
 use crate::viewer::session::Session;
 use crate::viewer::theme;
@@ -136,6 +137,28 @@ fn sampling() {
 fn transfer_function_of_two_fields() {
     let mut editor = TransferEditor::default();
     side("transfer", 360.0, transfer::by_density(), move |ui, session| editor.show(ui, session));
+}
+
+#[test]
+fn bars_of_colour_and_opacity_on_dark_and_on_light() {
+    let Some(builder) = drawing([640.0, 320.0]) else { return };
+    let on = |background: f32| {
+        let mut session = pictured(transfer::by_density(), stats());
+        session.view.image.background = Some([background; 3]);
+        session
+    };
+    let mut harness = builder.build_ui_state(
+        |ui, sessions: &mut [Session; 2]| {
+            for (session, left) in sessions.iter().zip([0.0, 320.0]) {
+                let rect = egui::Rect::from_min_size(egui::pos2(left, 0.0), egui::vec2(320.0, 320.0));
+                let [ground, ..] = session.view.image.background.unwrap_or_default();
+                ui.painter().rect_filled(rect, 0, egui::Rgba::from_gray(ground));
+                annotations::show(ui, session, rect, true);
+            }
+        },
+        [on(0.01), on(0.8)],
+    );
+    compare(&mut harness, "bars");
 }
 
 #[test]
