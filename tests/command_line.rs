@@ -56,6 +56,10 @@ fn wrong_arguments_give_status_2() {
         &["bench", "one.vtk", "--frames", "0..2"],
         &["info"],
         &["compare", "a.png"],
+        &["--follow", "one.vtk"],
+        &["--follow", "nowhere"],
+        &["--follow", "demo"],
+        &["--follow"],
         &["--no-such-flag"],
     ] {
         let outcome = sphcast(folder.path(), arguments);

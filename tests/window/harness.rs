@@ -75,6 +75,22 @@ impl Window {
 
     /// Opens it with other variables of the environment.
     pub fn open_with(folder: &Path, arguments: &[&str], variables: &[(&str, &Path)]) -> Window {
+        let mut window = Window::start(folder, arguments, variables);
+        window.wait_for("picture");
+        window.settle_down();
+        window.wait_for("area timeline 16 550");
+        window
+    }
+
+    /// Opens it where there is nothing to be seen as yet.
+    pub fn open_without_picture(folder: &Path, arguments: &[&str]) -> Window {
+        let mut window = Window::start(folder, arguments, &[]);
+        window.wait_for("area picture");
+        window.settle_down();
+        window
+    }
+
+    fn start(folder: &Path, arguments: &[&str], variables: &[(&str, &Path)]) -> Window {
         let (server, display) = server();
         // Settings and sessions of whoever runs the tests are none of theirs.
         let home = folder.join("home");
@@ -96,17 +112,16 @@ impl Window {
         std::thread::spawn(move || {
             errors.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
         });
-        let mut window =
-            Window { program: Guard(program), lines, said: Vec::new(), display, number: 0, _server: server };
-        window.wait_for("picture");
-        // Without a window manager, nobody else gives it the keyboard.
-        let number = window.tool(&["search", "--name", "sphcast"]);
+        Window { program: Guard(program), lines, said: Vec::new(), display, number: 0, _server: server }
+    }
+
+    /// Gives it its size and, as nobody else does without a window manager, the keyboard.
+    fn settle_down(&mut self) {
+        let number = self.tool(&["search", "--name", "sphcast"]);
         let number = number.lines().last().expect("a window").to_owned();
-        window.number = number.parse().unwrap();
-        window.tool(&["windowsize", "--sync", &number, "900", "600"]);
-        window.tool(&["windowfocus", &number]);
-        window.wait_for("area timeline 16 550");
-        window
+        self.number = number.parse().unwrap();
+        self.tool(&["windowsize", "--sync", &number, "900", "600"]);
+        self.tool(&["windowfocus", &number]);
     }
 
     /// Gives the window another size, in pixels.

@@ -136,3 +136,27 @@ fn a_run_grows_while_it_is_watched() {
     window.wait_for("picture frame=2");
     assert!(!window.said.iter().any(|line| line.contains("bad frame")), "{:#?}", window.said);
 }
+
+#[test]
+fn a_run_begins_and_fills_up_while_it_is_watched() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    std::fs::create_dir(&run).unwrap();
+    let mut window = Window::open_without_picture(folder.path(), &["run", "--size", "120x90", "--follow"]);
+    window.wait_for("opened run frames=0");
+    write_vtk(&run.join("frame_5.vtk"), 30, true);
+    window.wait_for("picture frame=0");
+    // Two that are late: one before the frame in view, which stays in view, and one that is the newest.
+    write_vtk(&run.join("frame_3.vtk"), 20, true);
+    window.wait_for("appended run frames=2");
+    window.wait_for("picture frame=1");
+    write_vtk(&run.join("frame_10.vtk"), 25, true);
+    window.wait_for("picture frame=2");
+    window.key("ctrl+Left");
+    window.wait_for("picture frame=0");
+    assert!(!window.said.iter().any(|line| line.starts_with("event: error")), "{:#?}", window.said);
+}

@@ -69,12 +69,16 @@ fn dropped_files_are_opened_and_dropped_views_loaded() {
     window.wait_for("picture frame=0");
     assert_same(&window.save(folder.path()).1, &other);
 
-    // A folder is a sequence; what cannot be opened leaves everything as it is.
+    // What cannot be opened leaves everything as it is.
+    desktop.hover(&[folder.path().join("nothing.vtk")]);
+    desktop.drop();
+    assert!(window.wait_for("error").contains("nothing.vtk"));
+    // A folder is a sequence, and is waited in where there is no frame as yet.
     let empty = folder.path().join("empty");
     std::fs::create_dir(&empty).unwrap();
     desktop.hover(&[empty]);
     desktop.drop();
-    assert!(window.wait_for("error").contains("empty"));
+    assert!(window.wait_for("opened").ends_with("empty frames=0"));
     desktop.hover(&[folder.path().to_owned()]);
     desktop.drop();
     assert!(window.wait_for("opened").ends_with("frames=2"));

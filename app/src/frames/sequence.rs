@@ -1,12 +1,12 @@
 //! From command-line arguments to an ordered list of frames.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::generate::Generated;
 use super::stream::FrameSource;
-use super::{Frame, Loading, demo, natural, readers};
+use super::{Frame, Insertion, Loading, demo, natural, readers};
 use crate::io_error::describe;
 
 /// The frames of a run, in the order in which they are shown.
@@ -15,6 +15,9 @@ pub struct Sequence {
     sources: Vec<Arc<Source>>,
     notes: Vec<String>,
 }
+
+/// Whether a file is a frame of the run already.
+type IsKnown<'a> = &'a dyn Fn(&Path) -> bool;
 
 /// One frame, not read yet.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,10 +48,26 @@ impl Sequence {
     /// Opens what `arguments` name: frame files (in natural order), directories, globs, `.pvd`
     /// collections (in the order of time), `demo`, `demo:radial:N`, `demo:checker:N`. Several
     /// arguments follow one another; without any it is the embedded demo. Reads no frame.
+    ///
+    /// # Errors
+    /// The first argument that names no frame, and why.
     pub fn open(arguments: &[PathBuf]) -> Result<Sequence, SequenceError> {
+        Sequence::gather(arguments, None)
+    }
+
+    /// The same for a run that is still being written: a folder may be without any frame as yet, and its
+    /// frames are those of the series that has a known file, if there is one.
+    ///
+    /// # Errors
+    /// As for [`Sequence::open`].
+    pub fn open_growing(arguments: &[PathBuf], known: IsKnown) -> Result<Sequence, SequenceError> {
+        Sequence::gather(arguments, Some(known))
+    }
+
+    fn gather(arguments: &[PathBuf], growing: Option<IsKnown>) -> Result<Sequence, SequenceError> {
         let mut sequence = Sequence::default();
         if arguments.is_empty() {
-            sequence.add(Path::new("demo"))?;
+            sequence.add(Path::new("demo"), growing)?;
         }
         let mut files = Vec::new();
         for argument in arguments {
@@ -58,7 +77,7 @@ impl Sequence {
                 continue;
             }
             sequence.add_files(std::mem::take(&mut files));
-            sequence.add(argument)?;
+            sequence.add(argument, growing)?;
         }
         sequence.add_files(files);
         Ok(sequence)
@@ -84,7 +103,7 @@ impl Sequence {
 
     /// Whether this is the embedded demo and nothing else.
     pub fn is_demo(&self) -> bool {
-        self.sources.iter().all(|source| matches!(source.origin, Origin::Demo(_)))
+        !self.is_empty() && self.sources.iter().all(|source| matches!(source.origin, Origin::Demo(_)))
     }
 
     /// The frames for a [`FrameStream`](super::FrameStream).
@@ -100,12 +119,41 @@ impl Sequence {
         self.sources = places.map(|place| Arc::clone(&self.sources[place])).collect();
     }
 
-    /// Puts frames behind the last one.
-    pub fn append(&mut self, added: &[Arc<Source>]) {
-        self.sources.extend_from_slice(added);
+    /// Puts new frames in, each at the place that it has from then on, which ascend.
+    pub fn insert(&mut self, added: &[(usize, Arc<Source>)]) -> Insertion {
+        let known = self.len();
+        for (place, source) in added {
+            self.sources.insert((*place).min(self.len()), Arc::clone(source));
+        }
+        Insertion::new(known, added.iter().map(|(place, _)| *place).collect())
     }
 
-    fn add(&mut self, argument: &Path) -> Result<(), SequenceError> {
+    /// The places of those frames of `listed` that are new, for [`Sequence::insert`]: behind the frame that
+    /// comes before them in the list.
+    pub fn places(&self, listed: &Sequence, is_new: impl Fn(&Source) -> bool) -> Vec<(usize, Arc<Source>)> {
+        let known: HashMap<&str, usize> =
+            self.sources.iter().enumerate().map(|(place, source)| (source.name.as_str(), place)).collect();
+        let mut behind = 0;
+        let mut new = Vec::new();
+        for source in &listed.sources {
+            match known.get(source.name.as_str()) {
+                Some(place) => behind = place + 1,
+                None if is_new(source) => new.push((behind, Arc::clone(source))),
+                None => {}
+            }
+        }
+        // The known ones may be in another order than they are listed in by now.
+        new.sort_by_key(|(behind, _)| *behind);
+        new.into_iter().enumerate().map(|(before, (behind, source))| (before + behind, source)).collect()
+    }
+
+    /// Whether frames may come to what `arguments` name: to folders, patterns and collections.
+    pub fn may_grow(arguments: &[PathBuf]) -> bool {
+        let grows = |path: &PathBuf| path.is_dir() || has_ending(path, "pvd") || is_pattern(path);
+        arguments.iter().any(grows)
+    }
+
+    fn add(&mut self, argument: &Path, growing: Option<IsKnown>) -> Result<(), SequenceError> {
         let text = argument.to_string_lossy();
         let error = |what: String| SequenceError { argument: text.clone().into_owned(), what };
         if text == "demo" {
@@ -114,11 +162,11 @@ impl Sequence {
             let generated = Generated::parse(scene).map_err(error)?;
             self.push(text.to_string(), None, Origin::Generated(generated));
         } else if argument.is_dir() {
-            let files = self.series(argument).map_err(error)?;
+            let files = self.series(argument, growing).map_err(error)?;
             self.add_files(files);
         } else if argument.is_file() {
             self.add_collection(argument).map_err(error)?;
-        } else if text.contains(['*', '?', '[']) {
+        } else if is_pattern(argument) {
             self.add_files(matches(&text).map_err(error)?);
         } else {
             // The system's own words: not found, no permission, a broken link.
@@ -166,8 +214,8 @@ impl Sequence {
         Ok(())
     }
 
-    /// The largest series of frames in a directory; says so where there are others.
-    fn series(&mut self, directory: &Path) -> Result<Vec<PathBuf>, String> {
+    /// The largest series of frames in a directory, or that of known files; says so where there are others.
+    fn series(&mut self, directory: &Path, growing: Option<IsKnown>) -> Result<Vec<PathBuf>, String> {
         let entries = std::fs::read_dir(directory).map_err(|error| describe(&error))?;
         let mut series: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
         for entry in entries {
@@ -178,8 +226,13 @@ impl Sequence {
         }
         let found = series.len();
         // The first one of the largest, in the order of the names.
-        let largest = series.into_iter().rev().max_by_key(|(_, files)| files.len());
+        let is_known = |file: &PathBuf| growing.is_some_and(|known| known(file));
+        let rank = |files: &[PathBuf]| (files.iter().any(is_known), files.len());
+        let largest = series.into_iter().rev().max_by_key(|(_, files)| rank(files));
         let Some((name, files)) = largest else {
+            if growing.is_some() {
+                return Ok(Vec::new());
+            }
             return Err(format!("has no particle files ({})", ENDINGS.join(", ")));
         };
         if found > 1 {
@@ -227,6 +280,10 @@ impl FrameSource for Source {
 /// Endings of the files that there are readers for, in lower case. A `.json` is a sidecar.
 const ENDINGS: [&str; 12] =
     ["vtk", "vtu", "vtp", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5", "hdf"];
+
+fn is_pattern(path: &Path) -> bool {
+    !path.is_file() && path.to_string_lossy().contains(['*', '?', '['])
+}
 
 fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))

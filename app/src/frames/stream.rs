@@ -120,11 +120,16 @@ impl FrameStream {
         self.len() == 0
     }
 
-    /// Puts frames behind the last one.
-    pub fn append(&self, sources: Vec<Arc<dyn FrameSource>>) {
+    /// Puts new frames in, each at the place that it has from then on, which ascend. The playhead stays at its
+    /// frame.
+    pub fn insert(&self, added: impl Iterator<Item = (usize, Arc<dyn FrameSource>)>) {
         let mut state = self.shared.lock();
-        state.slots.extend(sources.iter().map(|_| Slot::default()));
-        state.sources.extend(sources);
+        for (place, source) in added {
+            let place = place.min(state.slots.len());
+            state.playhead += usize::from(place < state.slots.len() && place <= state.playhead);
+            state.sources.insert(place, source);
+            state.slots.insert(place, Slot::default());
+        }
         drop(state);
         self.shared.changed.notify_all();
     }
@@ -266,7 +271,7 @@ impl Shared {
     }
 
     fn work(&self) {
-        while let Some((index, source, loading)) = self.next() {
+        while let Some((source, loading)) = self.next() {
             // A reader that panics must not take the thread, and with it all later frames, along.
             let frame = catch_unwind(AssertUnwindSafe(|| source.load(&loading)))
                 .unwrap_or_else(|_| Err(anyhow::anyhow!("reading it failed in an unforeseen way")));
@@ -274,8 +279,10 @@ impl Shared {
             if state.stopped {
                 return;
             }
-            // Whoever cancelled it does not wait for the reader to notice.
-            if !loading.is_cancelled() {
+            // It may have another place by now; whoever cancelled it does not wait for the reader to notice.
+            let is_its =
+                |slot: &Slot| matches!(&slot.state, SlotState::Loading(of) if Arc::ptr_eq(of, &loading));
+            if let Some(index) = state.slots.iter().position(is_its) {
                 state.finish(index, frame);
             }
             drop(state);
@@ -285,7 +292,7 @@ impl Shared {
     }
 
     /// Waits for a frame worth reading; `None` once the stream is gone.
-    fn next(&self) -> Option<(usize, Arc<dyn FrameSource>, Arc<Loading>)> {
+    fn next(&self) -> Option<(Arc<dyn FrameSource>, Arc<Loading>)> {
         let mut state = self.lock();
         loop {
             if state.stopped {
@@ -294,7 +301,7 @@ impl Shared {
             if let Some(index) = state.choose() {
                 let loading = Arc::new(Loading::default());
                 state.slots[index].state = SlotState::Loading(Arc::clone(&loading));
-                return Some((index, Arc::clone(&state.sources[index]), loading));
+                return Some((Arc::clone(&state.sources[index]), loading));
             }
             state = self.sleep(state);
         }

@@ -191,3 +191,21 @@ fn no_frames_at_all_are_fine() {
     stream.request(0);
     assert!(stream.is_empty() && stream.cached().is_empty());
 }
+
+#[test]
+fn frames_that_come_between_others_move_what_is_being_read() {
+    let fakes = fakes(3, 10);
+    let gate = fakes[0].gate.lock().unwrap();
+    let stream = stream(&fakes, 1 << 20);
+    eventually("frame 0 being read", || fakes[0].loads.load(Ordering::SeqCst) == 1);
+    // While frame 0 is read, two come before it and one behind it.
+    let new: Vec<Arc<Fake>> = [1, 2, 3].map(|rows| Arc::new(Fake::new(rows))).into();
+    let added = [(0, 0), (1, 1), (3, 2)]
+        .map(|(place, new_one): (usize, usize)| (place, Arc::clone(&new[new_one]) as Arc<dyn FrameSource>));
+    stream.insert(added.into_iter());
+    drop(gate);
+    assert_eq!(stream.len(), 6);
+    let rows: Vec<usize> = [2, 0, 1, 3, 4, 5].map(|index| stream.wait(index).unwrap().len()).into();
+    assert_eq!(rows, [10, 1, 2, 3, 10, 10]);
+    assert_eq!(fakes[0].loads.load(Ordering::SeqCst), 1, "it was not read twice");
+}

@@ -12,6 +12,8 @@ use super::{Sequence, Source};
 /// Looks after the files that the arguments of a run name.
 pub struct Watcher {
     arguments: Vec<PathBuf>,
+    /// The frames that are shown, in their order.
+    sequence: Sequence,
     files: HashMap<PathBuf, File>,
     /// Whether the files of the run were looked at before.
     began: bool,
@@ -20,8 +22,8 @@ pub struct Watcher {
 /// What differs from the look before.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// New frames, in the order in which they are to be shown, behind those that were known.
-    pub added: Vec<Arc<Source>>,
+    /// New frames with the places that they have from now on, which ascend.
+    pub added: Vec<(usize, Arc<Source>)>,
     /// Files that were written again, or were perhaps not whole when they were read.
     pub changed: Vec<PathBuf>,
     /// Files that are not there any more.
@@ -54,12 +56,12 @@ impl Watcher {
     pub fn new(arguments: Vec<PathBuf>, known: &Sequence) -> Watcher {
         let file = |path: &Path| (path.to_owned(), File { stamp: None, unsettled: false, shown: true });
         let files = known.sources().iter().filter_map(|source| source.path()).map(file).collect();
-        Watcher { arguments, files, began: false }
+        Watcher { arguments, sequence: known.clone(), files, began: false }
     }
 
-    /// Whether there is any file to look at.
+    /// Whether there is any file to look at, or to come.
     pub fn is_idle(&self) -> bool {
-        self.files.is_empty()
+        self.files.is_empty() && !Sequence::may_grow(&self.arguments)
     }
 
     /// Looks at all files, and for new ones. Waits for the disk.
@@ -78,18 +80,19 @@ impl Watcher {
     /// Finds files that are new. One becomes a frame once it is the same at two looks, and not fresh.
     fn find(&mut self, changes: &mut Changes) {
         // What cannot be listed now may be there at the next look.
-        let Ok(found) = Sequence::open(&self.arguments) else { return };
-        let named = |source: &&Arc<Source>| source.path().is_some_and(|path| self.files.contains_key(path));
-        if !found.sources().iter().any(|source| named(&source)) {
-            // Another series of the folder is the largest now, which is another run.
+        let known = |path: &Path| self.files.get(path).is_some_and(|file| file.shown);
+        let Ok(found) = Sequence::open_growing(&self.arguments, &known) else { return };
+        let paths = || found.sources().iter().filter_map(|source| source.path());
+        if !self.sequence.is_empty() && !paths().any(known) {
+            // All that was shown is gone: what is there now is another run.
             return;
         }
-        for source in found.sources() {
-            let Some(path) = source.path() else { continue };
+        let mut new = HashSet::new();
+        for path in paths() {
             match self.files.get_mut(path) {
                 Some(file) if !file.shown && !file.unsettled => {
                     file.shown = true;
-                    changes.added.push(Arc::clone(source));
+                    new.insert(path);
                 }
                 Some(_) => {}
                 None => {
@@ -97,6 +100,11 @@ impl Watcher {
                     self.files.insert(path.to_owned(), file);
                 }
             }
+        }
+        if !new.is_empty() {
+            let is_new = |source: &Source| source.path().is_some_and(|path| new.contains(path));
+            changes.added = self.sequence.places(&found, is_new);
+            self.sequence.insert(&changes.added);
         }
     }
 }
@@ -168,9 +176,20 @@ mod tests {
         SystemTime::now() + Duration::from_secs(3600)
     }
 
-    fn names(added: &[Arc<Source>]) -> Vec<String> {
-        let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
-        added.iter().map(|source| name(source.path().unwrap())).collect()
+    fn name(source: &Source) -> String {
+        source.path().unwrap().file_name().unwrap().to_string_lossy().into_owned()
+    }
+
+    fn names(added: &[(usize, Arc<Source>)]) -> Vec<String> {
+        added.iter().map(|(_, source)| name(source)).collect()
+    }
+
+    /// What is shown after all that was found since the run was opened.
+    fn shown(watcher: &mut Watcher, known: &mut Sequence) -> Vec<String> {
+        (0..2).for_each(|_| {
+            known.insert(&watcher.look(later()).added);
+        });
+        known.sources().iter().map(|source| name(source)).collect()
     }
 
     #[test]
@@ -239,6 +258,36 @@ mod tests {
     }
 
     #[test]
+    fn a_frame_that_comes_late_goes_where_its_name_belongs() {
+        let folder = Folder::with(&["a_2.csv", "a_9.csv"]);
+        let (mut watcher, mut known) =
+            (folder.watcher(), Sequence::open(&[folder.0.path().to_owned()]).unwrap());
+        shown(&mut watcher, &mut known);
+        ["a_10.csv", "a_1.csv", "a_3.csv", "a_11.csv"].iter().for_each(|name| folder.write(name, "x,y,z\n"));
+        let names = ["a_1.csv", "a_2.csv", "a_3.csv", "a_9.csv", "a_10.csv", "a_11.csv"];
+        assert_eq!(shown(&mut watcher, &mut known), names);
+        // Frames that are gone keep their places, and others still find theirs.
+        std::fs::remove_file(folder.path("a_9.csv")).unwrap();
+        folder.write("a_4.csv", "x,y,z\n");
+        let names = ["a_1.csv", "a_2.csv", "a_3.csv", "a_4.csv", "a_9.csv", "a_10.csv", "a_11.csv"];
+        assert_eq!(shown(&mut watcher, &mut known), names);
+    }
+
+    #[test]
+    fn an_empty_folder_is_waited_in() {
+        let folder = Folder::with(&[]);
+        let arguments = vec![folder.0.path().to_owned()];
+        let mut known = Sequence::open_growing(&arguments, &|_| false).unwrap();
+        let mut watcher = Watcher::new(arguments, &known);
+        assert!(known.is_empty() && !watcher.is_idle());
+        assert!(shown(&mut watcher, &mut known).is_empty());
+        folder.write("a_5.csv", "x,y,z\n");
+        assert_eq!(shown(&mut watcher, &mut known), ["a_5.csv"]);
+        folder.write("a_4.csv", "x,y,z\n");
+        assert_eq!(shown(&mut watcher, &mut known), ["a_4.csv", "a_5.csv"]);
+    }
+
+    #[test]
     fn another_series_that_outgrows_the_run_is_not_the_run() {
         let folder = Folder::with(&["a_1.csv", "a_2.csv"]);
         let mut watcher = folder.watcher();
@@ -247,5 +296,8 @@ mod tests {
         for _ in 0..3 {
             assert_eq!(watcher.look(later()), Changes::default());
         }
+        folder.write("a_3.csv", "x,y,z\n");
+        watcher.look(later());
+        assert_eq!(names(&watcher.look(later()).added), ["a_3.csv"], "which goes on growing");
     }
 }

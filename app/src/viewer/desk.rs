@@ -74,7 +74,8 @@ pub struct Desk {
     /// When to draw the next frame although nothing happens.
     pub due: Option<Instant>,
     dialogs: Dialogs,
-    done: (mpsc::Sender<Done>, mpsc::Receiver<Done>),
+    /// What was done, with the numbering of the frames when it was begun.
+    done: (mpsc::Sender<(usize, Done)>, mpsc::Receiver<(usize, Done)>),
     counting: bool,
     finding: bool,
     inquiries: looking::Inquiries,

@@ -29,7 +29,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) -> [u32; 2]
         };
         toolbar::show(ui, &desk.session, modes, actions);
     });
-    if desk.session.playback.count() > 1 {
+    let frames = desk.session.playback.count();
+    if frames > 1 || (frames == 1 && desk.session.may_grow()) {
         let bar = Frame::new().fill(theme::colours().panel).inner_margin(Margin::symmetric(10, 6));
         Panel::bottom("timeline").exact_size(timeline::HEIGHT).frame(bar).show(ui, |ui| {
             timeline::show(ui, &mut desk.session, actions);
@@ -185,6 +186,9 @@ fn nothing(desk: &Desk) -> Option<String> {
             Some(format!("Frame {} holds no particles", picture.index))
         }
         Some(_) => None,
+        None if let Some(folder) = desk.session.waits_in() => {
+            Some(format!("Waiting for the first frame in {folder}"))
+        }
         None => desk.session.trouble().map(|_| format!("Frame {index} cannot be read; open another file")),
     }
 }

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::frames::Insertion;
+
 /// How the playhead came to where it is: a frame that cannot be read is passed over in the
 /// direction of travel, but stays in view where the user pointed at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +51,11 @@ impl Playback {
     /// Goes on in a sequence that has become longer.
     pub fn extend(&mut self, count: usize) {
         self.count = self.count.max(count);
+    }
+
+    /// Stays at its frame where others come before it.
+    pub fn renumber(&mut self, insertion: &Insertion) {
+        self.index = insertion.moved(self.index);
     }
 
     pub fn count(&self) -> usize {

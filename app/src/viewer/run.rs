@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::frames::{Changes, FrameSource, FrameStream, Sequence, Source, Timed};
+use crate::frames::{Changes, FrameSource, FrameStream, Insertion, Sequence, Source, Timed};
 
 use super::Wake;
 use super::live::Live;
@@ -19,6 +19,8 @@ pub struct Run {
     pub sequence: Sequence,
     pub stream: FrameStream,
     live: Option<Live>,
+    /// Where frames may come to, for the reader; `None` where none can.
+    grows_in: Option<String>,
     /// Files that may be half written; `None` until the files of a live run were looked at.
     unsettled: Option<HashSet<PathBuf>>,
 }
@@ -36,12 +38,32 @@ impl Run {
         let sources: Vec<Arc<Timed>> = sequence.frame_sources().into_iter().map(Timed::new).collect();
         let timed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
         let stream = FrameStream::new(timed, cache, move || wake());
-        Run { title, names, sources, sequence: sequence.clone(), stream, live: None, unsettled: None }
+        Run {
+            title,
+            names,
+            sources,
+            sequence: sequence.clone(),
+            stream,
+            live: None,
+            grows_in: None,
+            unsettled: None,
+        }
     }
 
     /// Looks after the files that `paths`, of which this run was made, name from now on.
     pub fn watch(&mut self, paths: &[PathBuf], wake: &Wake) {
         self.live = Live::start(paths, &self.sequence, wake);
+        let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        self.grows_in = Sequence::may_grow(paths).then(|| names.join(", "));
+        if let (true, [first, ..]) = (self.sequence.is_empty(), paths) {
+            self.title = std::path::absolute(first)
+                .map_or_else(|_| String::new(), |path| file_name(&path.to_string_lossy()));
+        }
+    }
+
+    /// Where frames may come to, as it was named; `None` where none can.
+    pub fn grows_in(&self) -> Option<&str> {
+        self.grows_in.as_deref()
     }
 
     pub fn is_live(&self) -> bool {
@@ -64,14 +86,17 @@ impl Run {
         self.is_live() && path.is_some_and(unsettled)
     }
 
-    /// Puts new frames behind the last one.
-    pub fn append(&mut self, added: &[Arc<Source>]) {
-        let new: Vec<Arc<Timed>> =
-            added.iter().map(|source| Timed::new(Arc::clone(source) as Arc<dyn FrameSource>)).collect();
-        self.names.extend(added.iter().map(|source| file_name(&source.name)));
-        self.stream.append(new.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect());
-        self.sources.extend(new);
-        self.sequence.append(added);
+    /// Puts new frames in, each at the place that it has from then on, which ascend.
+    pub fn insert(&mut self, added: &[(usize, Arc<Source>)]) -> Insertion {
+        let mut streamed = Vec::new();
+        for (place, source) in added {
+            let timed = Timed::new(Arc::clone(source) as Arc<dyn FrameSource>);
+            streamed.push((*place, Arc::clone(&timed) as Arc<dyn FrameSource>));
+            self.names.insert(*place, file_name(&source.name));
+            self.sources.insert(*place, timed);
+        }
+        self.stream.insert(streamed.into_iter());
+        self.sequence.insert(added)
     }
 
     /// The frames that come from a file.
@@ -91,9 +116,9 @@ impl Run {
     }
 }
 
-/// Finds the frames that `paths` name: looks at folders and collections, so not for the window's thread.
+/// Finds the frames that `paths` name, if only a folder that they will come to: looks at folders and collections, so not for the window's thread.
 pub fn find(paths: &[PathBuf]) -> Result<Sequence, String> {
-    Sequence::open(paths).map_err(|error| error.to_string())
+    Sequence::open_growing(paths, &|_| false).map_err(|error| error.to_string())
 }
 
 fn file_name(path: &str) -> String {

@@ -9,6 +9,7 @@ mod picture;
 mod pooled;
 mod range;
 mod reading;
+mod renumber;
 mod space;
 mod wish;
 
@@ -18,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use renderer::{Bounds, SelectView, View};
 
-use crate::frames::{Frame, FrameState};
+use crate::frames::{Frame, FrameState, Insertion};
 
 use super::messages::Messages;
 use super::orbit_camera::OrbitCamera;
@@ -78,6 +79,8 @@ pub struct Session {
     /// Adapter's name, and whether it is a program on the CPU.
     pub adapter: Option<(String, bool)>,
     pub ranges: Ranges,
+    /// Frames that came between others, since the program was started.
+    insertions: Vec<Insertion>,
     /// Frames that were reported as bad.
     told: BTreeSet<usize>,
     /// Whether the playhead goes to each new frame of a run that is being written.
@@ -129,6 +132,7 @@ impl Session {
             wants_statistics: false,
             adapter: None,
             ranges: Ranges::default(),
+            insertions: Vec::new(),
             told: BTreeSet::new(),
             following: false,
             told_left_out: BTreeSet::new(),
@@ -215,7 +219,7 @@ impl Session {
     pub fn waiting(&self) -> bool {
         let index = self.playback.index();
         let here = self.frame.as_ref().is_some_and(|(frame, _)| *frame == index);
-        self.run.is_some() && !here && self.trouble().is_none()
+        self.playback.count() > 0 && !here && self.trouble().is_none()
     }
 
     /// Says that something moves, so that the next pictures must be quick.

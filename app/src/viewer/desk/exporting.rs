@@ -10,6 +10,7 @@ use crate::viewer::Wake;
 use crate::viewer::dialogs::Purpose;
 use crate::viewer::exports::{Exports, News};
 use crate::viewer::panels::export::{ExportForm, Wish};
+use crate::viewer::session::Session;
 
 /// All that is to be saved, and the export window.
 pub struct Exporting {
@@ -17,6 +18,8 @@ pub struct Exporting {
     form: Option<ExportForm>,
     pub queue: Exports,
     folder_wanted: bool,
+    /// That of the frames which the window names.
+    numbering: usize,
     /// Whether it is being asked if exports may be lost.
     quitting: bool,
 }
@@ -24,13 +27,20 @@ pub struct Exporting {
 impl Exporting {
     pub fn new(wake: &Wake) -> Exporting {
         let queue = Exports::new(Wake::clone(wake));
-        Exporting { form: None, queue, folder_wanted: false, quitting: false }
+        Exporting { form: None, queue, folder_wanted: false, numbering: 0, quitting: false }
     }
 
     pub fn videos_possible(&mut self, possible: bool) {
         if let Some(form) = &mut self.form {
             form.ffmpeg = Some(possible);
         }
+    }
+
+    /// Gives the frames that the window names the numbers that they have in `session` by now.
+    fn renumber(&mut self, session: &Session) {
+        let before = std::mem::replace(&mut self.numbering, session.numbering());
+        let frames = self.form.iter_mut().flat_map(|form| [&mut form.first, &mut form.last]);
+        frames.for_each(|frame| *frame = session.moved_since(before, *frame));
     }
 
     /// Whether the queue is to be seen.
@@ -67,6 +77,7 @@ impl Desk {
 
     /// Opens the dialog that the export window asks for.
     pub(super) fn follow_export(&mut self, window: &winit::window::Window) {
+        self.exporting.renumber(&self.session);
         if std::mem::take(&mut self.exporting.folder_wanted) {
             self.dialogs.ask(Purpose::ExportFolder, "", window);
         }

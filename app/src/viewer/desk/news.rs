@@ -35,6 +35,25 @@ pub(super) enum Done {
     VideosPossible(bool),
 }
 
+impl Done {
+    /// Gives frames the numbers that they have by now.
+    fn renumber(&mut self, moved: impl Fn(usize) -> usize) {
+        let index = match self {
+            Done::Counted(analysis) => &mut analysis.index,
+            Done::Pointed(pointed) => &mut pointed.shot.index,
+            Done::Located(located) => &mut located.search.index,
+            Done::Statistics(answer) => {
+                if let Ok(statistics) = &mut answer.statistics {
+                    statistics.frame = moved(statistics.frame);
+                }
+                &mut answer.question.index
+            }
+            _ => return,
+        };
+        *index = moved(*index);
+    }
+}
+
 /// A run that is looked for.
 pub(super) struct Opening {
     pub paths: Vec<PathBuf>,
@@ -53,7 +72,8 @@ impl Desk {
     }
 
     pub(super) fn take_done(&mut self) {
-        while let Ok(done) = self.done.1.try_recv() {
+        while let Ok((numbering, mut done)) = self.done.1.try_recv() {
+            done.renumber(|index| self.session.moved_since(numbering, index));
             match done {
                 Done::Found(opening, Ok(sequence)) => {
                     self.finding = false;
@@ -114,9 +134,10 @@ impl Desk {
 
     pub(super) fn work(&self, task: impl FnOnce() -> Done + Send + 'static) {
         let (sender, wake) = (self.done.0.clone(), Wake::clone(&self.wake));
+        let numbering = self.session.numbering();
         std::thread::spawn(move || {
             // The window is gone when nobody listens.
-            let _ = sender.send(task());
+            let _ = sender.send((numbering, task()));
             wake();
         });
     }

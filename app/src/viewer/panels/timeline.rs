@@ -69,7 +69,7 @@ fn speed(ui: &mut Ui, session: &mut Session) {
 
 /// Whether to go along with a run that is being written.
 fn follow(ui: &mut Ui, session: &mut Session) {
-    if !session.is_live() {
+    if !session.may_grow() {
         return;
     }
     let on = session.is_following();

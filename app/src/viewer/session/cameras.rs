@@ -6,6 +6,7 @@ use renderer::{Bookmark, CameraView, Keyframe};
 
 use super::Session;
 use crate::camera_path::{Pose, camera_at, turned};
+use crate::frames::Insertion;
 use crate::viewer::orbit_camera::Side;
 
 /// How the camera moves by itself.
@@ -16,6 +17,12 @@ pub struct Cameras {
     /// The frame that it last went to on the path.
     last: Option<usize>,
     flight: Option<Flight>,
+}
+
+impl Cameras {
+    pub(super) fn renumber(&mut self, insertion: &Insertion) {
+        self.last = self.last.map(|frame| insertion.moved(frame));
+    }
 }
 
 /// On the way to another camera.

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
+use crate::frames::Insertion;
 use crate::viewer::render_thread::Shown;
 
 /// What the time of a picture goes into.
@@ -124,6 +125,10 @@ impl Costs {
             gpu_bytes: stats.gpu_bytes,
             milliseconds,
         });
+    }
+
+    pub(super) fn renumber(&mut self, insertion: &Insertion) {
+        self.entries.iter_mut().for_each(|entry| entry.frame = insertion.moved(entry.frame));
     }
 
     pub fn entries(&self) -> impl DoubleEndedIterator<Item = &Entry> + ExactSizeIterator {

@@ -81,6 +81,14 @@ pub struct History {
 }
 
 impl History {
+    /// Changes the views of all steps in a way that is no step itself.
+    pub(super) fn each_view(&mut self, change: impl Fn(&mut View)) {
+        let History { past, present, future, latest, held: _ } = self;
+        let latest = latest.as_mut().map(|(moment, _)| moment);
+        let moments = past.iter_mut().chain(present).chain(future).chain(latest);
+        moments.for_each(|moment| change(&mut moment.view));
+    }
+
     fn commit(&mut self, moment: Moment) {
         let Some(before) = self.present.replace(moment) else { return };
         self.future.clear();

@@ -6,9 +6,14 @@ use super::{RangeSource, Session};
 use crate::frames::Changes;
 
 impl Session {
-    /// Whether the files of the run are looked after.
-    pub fn is_live(&self) -> bool {
-        self.run.as_ref().is_some_and(|run| run.is_live())
+    /// Whether frames may come to the run.
+    pub fn may_grow(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.grows_in().is_some())
+    }
+
+    /// Where the first frame is waited for; `None` where there is one.
+    pub fn waits_in(&self) -> Option<&str> {
+        self.run.as_ref().filter(|run| run.stream.is_empty())?.grows_in()
     }
 
     /// Goes to the newest frame, and to every new one from now on; or no more.
@@ -39,11 +44,16 @@ impl Session {
     pub fn take_change(&mut self, changes: &Changes) {
         let Some(run) = &mut self.run else { return };
         let before = run.stream.len();
-        run.append(&changes.added);
+        let insertion = run.insert(&changes.added);
         let (count, title) = (run.stream.len(), run.title.clone());
         let changed: Vec<usize> = changes.changed.iter().flat_map(|path| run.places(path)).collect();
         for &index in &changed {
             run.stream.reload(index);
+        }
+        // Their numbers go up with the playhead's, which must not be past the end meanwhile.
+        self.playback.extend(count);
+        if !insertion.is_behind() {
+            self.renumber(insertion);
         }
         for index in changed {
             // It may be good now, and is told again where it is not.
@@ -60,10 +70,9 @@ impl Session {
     }
 
     fn grow(&mut self, before: usize, count: usize, title: &str) {
-        if before == 1 {
+        if before <= 1 && count > 1 {
             self.range_sources().into_iter().for_each(RangeSource::steady);
         }
-        self.playback.extend(count);
         self.log(format!("appended {title} frames={count}"));
         if self.following {
             self.go_to_newest();

@@ -71,6 +71,85 @@ fn new_frames_lengthen_the_run_and_are_followed() {
 }
 
 #[test]
+fn what_is_about_a_frame_stays_with_it_when_another_comes_before() {
+    let folder = tempfile::tempdir().unwrap();
+    [2, 4, 6].iter().for_each(|number| write(folder.path(), *number, *number));
+    let (mut session, paths, _) = session(folder.path());
+    let mut watcher = Watcher::new(paths.clone(), &Sequence::open(&paths).unwrap());
+    let later = SystemTime::now() + Duration::from_secs(3600);
+    let mut look = |session: &mut Session| (0..2).for_each(|_| session.take_change(&watcher.look(later)));
+    look(&mut session);
+    session.jump(1);
+    until(&mut session, "frame 1", |session| particles_in_view(session) == Some((1, 4)));
+    session.camera = Some(crate::viewer::orbit_camera::OrbitCamera::overview(None, 1.0, 1.0));
+    let now = Instant::now();
+    session.remember(now, false);
+    session.set_keyframe();
+    session.remember(now + Duration::from_secs(1), false);
+    session.remember(now + Duration::from_secs(2), false);
+    session.told.insert(2);
+    session.without_picture = Some(1);
+    let asked = session.numbering();
+    while let Some(question) = session.question() {
+        session.answer(question.answer());
+    }
+    let frame = Arc::clone(&session.frame().unwrap().1);
+
+    // Before, between and behind those that are known.
+    [1, 3, 5, 7].iter().for_each(|number| write(folder.path(), *number, *number));
+    look(&mut session);
+    let name = |session: &Session| session.run().unwrap().name(session.playback.index()).to_owned();
+    assert_eq!((session.playback.count(), session.playback.index()), (7, 3));
+    assert_eq!(name(&session), "a_4.csv");
+    assert!(matches!(session.frame(), Some((3, here)) if Arc::ptr_eq(here, &frame)), "it is not read again");
+    assert_eq!(session.run().unwrap().stream.cached().len(), 7);
+    assert_eq!(session.view.path.keyframes[0].frame, 3.0);
+    assert_eq!(session.told.iter().copied().collect::<Vec<_>>(), [5]);
+    assert_eq!(session.without_picture, Some(3));
+    assert!(session.question().is_none(), "what is known of the frame is known");
+    assert_eq!((session.moved_since(asked, 2), session.moved_since(session.numbering(), 2)), (5, 2));
+    session.remember(now + Duration::from_secs(3), false);
+    assert!(session.can_undo(), "the keyframe is a step, to be numbered anew is none");
+    session.undo();
+    assert!(session.view.path.keyframes.is_empty());
+    session.redo();
+    assert_eq!(session.view.path.keyframes[0].frame, 3.0, "the steps back and forth count alike");
+    for (index, particles) in [(0, 1), (6, 7), (2, 3), (5, 6)] {
+        session.jump(index);
+        until(&mut session, "the frame", |session| particles_in_view(session) == Some((index, particles)));
+    }
+}
+
+#[test]
+fn the_first_frame_is_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (paths, wake): (_, Wake) = (vec![folder.path().to_owned()], Arc::new(|| {}));
+    let found = crate::viewer::run::find(&paths).unwrap();
+    let mut watcher = Watcher::new(paths.clone(), &found);
+    let mut run = Run::new(&found, 1 << 20, &wake);
+    run.watch(&paths, &wake);
+    assert_eq!(run.title, folder.path().file_name().unwrap().to_string_lossy());
+    let mut session = Session::new(View::default());
+    session.open(run);
+    session.follow(true);
+    session.toggle_playing();
+    session.step(true);
+    session.poll(Instant::now());
+    assert_eq!(session.waits_in(), Some(folder.path().to_str().unwrap()));
+    assert!(!session.waiting() && session.may_grow() && session.messages.list().is_empty());
+    write(folder.path(), 1, 5);
+    let later = SystemTime::now() + Duration::from_secs(3600);
+    session.follow(true);
+    (0..3).for_each(|_| session.take_change(&watcher.look(later)));
+    assert_eq!(session.waits_in(), None);
+    until(&mut session, "the first frame", |session| particles_in_view(session) == Some((0, 5)));
+    write(folder.path(), 0, 3);
+    (0..3).for_each(|_| session.take_change(&watcher.look(later)));
+    until(&mut session, "it is still the newest", |session| particles_in_view(session) == Some((1, 5)));
+    assert_eq!(session.range_source, crate::viewer::session::RangeSource::Seen);
+}
+
+#[test]
 fn a_half_written_frame_is_waited_for_and_not_told() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a_1.csv"), "x,y,z\n0,0").unwrap();

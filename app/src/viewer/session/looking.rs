@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Session;
+use crate::frames::Insertion;
 use crate::viewer::inspect::pointing::{Place, Pointed, Question, Shot};
 use crate::viewer::inspect::tracked::{Located, Search, Tracked};
 
@@ -121,6 +122,14 @@ impl Looking {
     /// Keeps the tool and nothing that was found with it, when another run is opened.
     pub fn forget(&mut self) {
         *self = Looking { tool: self.tool, ..Looking::default() };
+    }
+
+    pub(super) fn renumber(&mut self, insertion: &Insertion) {
+        let shots = [self.shot.as_mut(), self.pointed.as_mut().map(|pointed| &mut pointed.shot)];
+        let shots = shots.into_iter().flatten().map(|shot| &mut shot.index);
+        let picked = self.picked.iter_mut().map(|picked| &mut picked.particle);
+        let particles = picked.chain(self.distance.particles_mut()).map(|particle| &mut particle.index);
+        shots.chain(particles).for_each(|index| *index = insertion.moved(*index));
     }
 
     pub fn holds(&self, tool: Tool) -> bool {

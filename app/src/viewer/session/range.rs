@@ -6,6 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 use renderer::Scale;
 
 use super::Session;
+use crate::frames::Insertion;
 use crate::viewer::analysis::distribution::{Analysis, Axis, Distribution};
 use crate::viewer::analysis::survey::{Field, Found};
 
@@ -64,6 +65,12 @@ impl Ranges {
     /// Forgets what is of another run.
     pub(super) fn clear(&mut self) {
         *self = Ranges { quantiles: self.quantiles, survey: Survey::Unwanted, ..Ranges::default() };
+    }
+
+    pub(super) fn renumber(&mut self, insertion: &Insertion) {
+        for (_, frames) in self.seen.values_mut() {
+            *frames = frames.iter().map(|index| insertion.moved(*index)).collect();
+        }
     }
 
     fn see(&mut self, index: usize, field: Field, [low, high]: [f64; 2]) {
