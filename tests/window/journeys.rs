@@ -147,7 +147,7 @@ fn a_run_begins_and_fills_up_while_it_is_watched() {
     let run = folder.path().join("run");
     std::fs::create_dir(&run).unwrap();
     let mut window = Window::open_without_picture(folder.path(), &["run", "--size", "120x90", "--follow"]);
-    window.wait_for("opened run frames=0");
+    assert_eq!(window.said[0], "event: opened run frames=0");
     write_vtk(&run.join("frame_5.vtk"), 30, true);
     window.wait_for("picture frame=0");
     // Two that are late: one before the frame in view, which stays in view, and one that is the newest.

@@ -1,8 +1,43 @@
 //! What outlives the program: the session after a crash, the runs that were open, keys of one's own.
 
+use std::path::Path;
+
 use crate::desktop::eventually;
 use crate::harness::{Window, missing};
 use crate::system::{assert_same, frames};
+
+/// The sessions that are kept.
+fn kept(folder: &Path) -> Vec<serde_json::Value> {
+    let files = std::fs::read_dir(folder.join("home/data/sphcast/sessions")).unwrap();
+    let files = files.map(|file| file.unwrap().path()).filter(|path| path.extension().unwrap() == "json");
+    files.map(|file| serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap()).collect()
+}
+
+#[test]
+fn a_window_that_runs_is_no_crash() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["first", "second"] {
+        std::fs::create_dir(folder.path().join(name)).unwrap();
+        frames(&folder.path().join(name));
+    }
+    let mut first = Window::open(folder.path(), &["first", "--size", "120x90"]);
+    let _second = Window::open(folder.path(), &["second", "--size", "120x90"]);
+    eventually("two sessions", || kept(folder.path()).len() == 2);
+    first.program.0.kill().unwrap();
+    first.program.0.wait().unwrap();
+    let mut third = Window::open(folder.path(), &[]);
+    third.wait_for_area("last-session");
+    third.click("last-session", [0.3, 0.5]);
+    assert_eq!(third.wait_for("opened"), "first frames=2");
+    eventually("its own session in place of the one after the crash", || {
+        let titles: Vec<_> = kept(folder.path()).iter().map(|kept| kept["title"].clone()).collect();
+        titles.len() == 2 && titles.contains(&"first".into()) && titles.contains(&"second".into())
+    });
+}
 
 #[test]
 fn after_a_crash_the_session_is_opened_again_from_the_start_page() {
@@ -23,9 +58,8 @@ fn after_a_crash_the_session_is_opened_again_from_the_start_page() {
     window.drag("picture", [0.3, 0.5], [0.6, 0.4]);
     window.drag("transfer", [0.0, 0.5], [0.0, 0.2]);
     let (_, before) = window.save(folder.path());
-    let kept = folder.path().join("home/data/sphcast/session.json");
     eventually("a session with this view", || {
-        let kept: serde_json::Value = serde_json::from_slice(&std::fs::read(&kept).unwrap()).unwrap();
+        let [kept] = kept(folder.path()).try_into().expect("one session");
         kept["view"]["camera"] == serde_json::to_value(before.camera).unwrap() && kept["frame"] == 1
     });
     // Not by its own will: nothing is written on the way.

@@ -70,9 +70,11 @@ fn dropped_files_are_opened_and_dropped_views_loaded() {
     assert_same(&window.save(folder.path()).1, &other);
 
     // What cannot be opened leaves everything as it is.
-    desktop.hover(&[folder.path().join("nothing.vtk")]);
+    let broken = folder.path().join("broken.pvd");
+    std::fs::write(&broken, "<VTKFile").unwrap();
+    desktop.hover(&[broken]);
     desktop.drop();
-    assert!(window.wait_for("error").contains("nothing.vtk"));
+    assert!(window.wait_for("error").contains("broken.pvd"));
     // A folder is a sequence, and is waited in where there is no frame as yet.
     let empty = folder.path().join("empty");
     std::fs::create_dir(&empty).unwrap();

@@ -95,7 +95,7 @@ impl Desk {
         let (keeping, troubles) = Keeping::read();
         session.budget = keeping.settings.budget.sound();
         let gpu = keeping.settings.gpu(&options.gpu);
-        let crashed = keeping.last.as_ref().is_some_and(|last| !last.ended);
+        let crashed = keeping.sessions.left.iter().any(|left| !left.session.ended);
         let mut desk = Desk {
             session,
             picture: PictureView::new(),

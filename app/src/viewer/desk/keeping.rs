@@ -5,17 +5,19 @@ use std::time::{Duration, Instant};
 
 use super::{Desk, Done};
 use crate::viewer::Wake;
-use crate::viewer::kept::{self, Kept, LastSession, Recent, RecentRuns, Settings};
+use crate::viewer::kept::{self, Kept, LastSession, Recent, RecentRuns, Sessions, Settings};
 use crate::viewer::render_thread::RenderThread;
 
+/// What a session that was written is called.
+const SESSION: &str = "session";
 /// The least time between two writes of the session.
 const PAUSE: Duration = Duration::from_secs(2);
 
 pub struct Keeping {
     pub settings: Settings,
     pub recent: RecentRuns,
-    /// What was open before the program was started.
-    pub last: Option<LastSession>,
+    /// What was open before the program was started, and what is.
+    pub sessions: Sessions,
     /// Size of letters and controls when it was last looked at.
     scale: f32,
     /// What the open run was opened by; empty for the demo, which needs no keeping.
@@ -34,14 +36,12 @@ impl Keeping {
         let mut troubles = Vec::new();
         let settings = kept_or_default::<Settings>(&mut troubles);
         let recent = kept_or_default(&mut troubles);
-        let last = LastSession::read().unwrap_or_else(|error| {
-            troubles.push(format!("{error:#}"));
-            None
-        });
+        let (sessions, more) = Sessions::read();
+        troubles.extend(more);
         let written = (settings.clone(), None);
         let paths = Vec::new();
         let (scale, next) = (1.0, Instant::now());
-        let keeping = Keeping { settings, recent, last, scale, paths, written, writing: false, next };
+        let keeping = Keeping { settings, recent, sessions, scale, paths, written, writing: false, next };
         (keeping, troubles)
     }
 
@@ -95,11 +95,10 @@ impl Desk {
         self.write(self.keeping.recent.clone());
     }
 
-    /// Opens again what was open when the program ended.
-    pub(in crate::viewer) fn restore(&mut self) {
-        if let Some(last) = self.keeping.last.take() {
-            self.find_for(last.paths.clone(), Some(Box::new(last)));
-        }
+    /// Opens again what was left behind as `index`.
+    pub(in crate::viewer) fn restore(&mut self, index: usize) {
+        let last = self.keeping.sessions.take_over(index);
+        self.find_for(last.paths.clone(), Some(Box::new(last)));
     }
 
     /// Writes what has changed since it was last written; the session, no more often than it must be.
@@ -108,7 +107,9 @@ impl Desk {
             self.keeping.written.0 = self.keeping.settings.clone();
             self.write(self.keeping.settings.clone());
         }
-        let Some(session) = self.to_be_kept(false) else { return };
+        let (Some(session), Some(file)) = (self.to_be_kept(false), self.keeping.sessions.file()) else {
+            return;
+        };
         let written = self.keeping.written.1.as_ref();
         if written.is_some_and(|written| written.is_like(&session)) {
             return;
@@ -119,15 +120,16 @@ impl Desk {
         }
         self.keeping.next = now + PAUSE;
         self.keeping.written.1 = Some(session.clone());
-        self.write(session);
+        self.keeping.writing = true;
+        self.work(move || Done::Kept(SESSION, kept::write(&file, &session)));
     }
 
     /// Ends exports, so that no half file is left, and writes the session for the last time. Nobody is left
     /// to tell where this fails.
     pub fn close(&mut self) {
         self.exporting.queue.end();
-        if let Some(session) = self.to_be_kept(true) {
-            let _ = session.write();
+        if let (Some(session), Some(file)) = (self.to_be_kept(true), self.keeping.sessions.file()) {
+            let _ = kept::write(&file, &session);
         }
     }
 
@@ -153,7 +155,12 @@ impl Desk {
     pub(super) fn written(&mut self, file: &str, result: anyhow::Result<()>) {
         self.keeping.writing = false;
         match result {
-            Ok(()) => self.session.log(format!("kept {file}")),
+            Ok(()) => {
+                if let (SESSION, Some(session)) = (file, &self.keeping.written.1) {
+                    self.keeping.sessions.saved(&session.paths);
+                }
+                self.session.log(format!("kept {file}"));
+            }
             Err(error) => self.session.messages.warn(format!("{error:#}")),
         }
     }

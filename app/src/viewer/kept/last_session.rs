@@ -5,9 +5,6 @@ use std::path::PathBuf;
 use renderer::View;
 use serde::{Deserialize, Serialize};
 
-use super::Kept;
-use crate::places;
-
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LastSession {
     /// What the run was opened by.
@@ -27,13 +24,5 @@ impl LastSession {
         let LastSession { paths, title, frame, view, when: _, ended } = self;
         (paths, title, frame, ended) == (&other.paths, &other.title, &other.frame, &other.ended)
             && view == &other.view
-    }
-}
-
-impl Kept for LastSession {
-    const FILE: &'static str = "session.json";
-
-    fn folder() -> Option<PathBuf> {
-        places::data()
     }
 }

@@ -1,9 +1,10 @@
 //! What outlives the program, each in a file of its own in the platform's places: settings, the runs
-//! that were open, and the session to go on with.
+//! that were open, and the sessions to go on with.
 
 mod last_session;
 pub mod library;
 mod recent;
+mod sessions;
 mod settings;
 
 use std::path::{Path, PathBuf};
@@ -18,6 +19,7 @@ use crate::io_error::describe;
 
 pub use last_session::LastSession;
 pub use recent::{Recent, RecentRuns};
+pub use sessions::{Left, Sessions};
 pub use settings::Settings;
 
 /// Something that is kept in a file.
@@ -71,7 +73,11 @@ fn read<T: DeserializeOwned>(path: &Path) -> anyhow::Result<Option<T>> {
     }
 }
 
-fn write<T: Serialize>(path: &Path, kept: &T) -> anyhow::Result<()> {
+/// Keeps something in the file at `path`.
+///
+/// # Errors
+/// Whatever the system has against the file; the path comes first.
+pub fn write<T: Serialize>(path: &Path, kept: &T) -> anyhow::Result<()> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)
             .map_err(|error| anyhow!("{}: cannot be made: {}", folder.display(), describe(&error)))?;

@@ -4,7 +4,7 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
 use crate::viewer::desk::Desk;
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::kept::{self, Recent};
+use crate::viewer::kept::{self, Left, Recent};
 use crate::viewer::keys::shortcuts::{Action, keys};
 use crate::viewer::widgets::Areas;
 use crate::viewer::{accessible, theme};
@@ -14,7 +14,7 @@ pub const WIDTH: f32 = 300.0;
 
 /// What was asked for.
 enum Wish {
-    Restore,
+    Restore(usize),
     Open(Recent),
     Forget(Recent),
 }
@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     egui::Frame::new().inner_margin(margin).show(ui, |ui| {
         header(ui, desk);
         open(ui, actions);
-        last_session(ui, desk, &mut wish);
+        last_sessions(ui, desk, &mut wish);
         recent(ui, desk, &mut wish);
         ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
             let mut here = desk.keeping.settings.start_page;
@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
         });
     });
     match wish {
-        Some(Wish::Restore) => desk.restore(),
+        Some(Wish::Restore(index)) => desk.restore(index),
         Some(Wish::Open(run)) => desk.find(run.paths),
         Some(Wish::Forget(run)) => desk.forget(&run.paths),
         None => {}
@@ -80,18 +80,25 @@ fn open(ui: &mut Ui, actions: &mut Vec<Action>) {
     ui.add_space(12.0);
 }
 
-fn last_session(ui: &mut Ui, desk: &Desk, wish: &mut Option<Wish>) {
-    let Some(last) = &desk.keeping.last else { return };
-    title(ui, "Last session");
-    if !last.ended {
+fn last_sessions(ui: &mut Ui, desk: &Desk, wish: &mut Option<Wish>) {
+    let left = &desk.keeping.sessions.left;
+    if left.is_empty() {
+        return;
+    }
+    title(ui, if left.len() > 1 { "Last sessions" } else { "Last session" });
+    if left.iter().any(|left| !left.session.ended) {
         let text = "The program did not end properly. What was open is kept:";
         ui.label(RichText::new(text).small().color(theme::colours().warning));
     }
-    let line =
-        entry(ui, &last.title, &format!("frame {}, {}", last.frame, kept::ago(last.when, kept::now())));
-    Areas::mark(ui, "last-session", line.rect);
-    if line.on_hover_text("Open this run again, with the view and the frame that it had").clicked() {
-        *wish = Some(Wish::Restore);
+    for (index, Left { session, .. }) in left.iter().enumerate() {
+        let about = format!("frame {}, {}", session.frame, kept::ago(session.when, kept::now()));
+        let line = entry(ui, &session.title, &about);
+        if index == 0 {
+            Areas::mark(ui, "last-session", line.rect);
+        }
+        if line.on_hover_text("Open this run again, with the view and the frame that it had").clicked() {
+            *wish = Some(Wish::Restore(index));
+        }
     }
     ui.add_space(12.0);
 }
