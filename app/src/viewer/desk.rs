@@ -36,7 +36,7 @@ use crate::viewer::picture::picture_view::PictureView;
 
 use exporting::Exporting;
 use keeping::Keeping;
-use news::{Done, Opening};
+use news::{Dated, Done, Opening};
 
 /// What only the window can do.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -74,8 +74,7 @@ pub struct Desk {
     /// When to draw the next frame although nothing happens.
     pub due: Option<Instant>,
     dialogs: Dialogs,
-    /// What was done, with the numbering of the frames when it was begun.
-    done: (mpsc::Sender<(usize, Done)>, mpsc::Receiver<(usize, Done)>),
+    done: (mpsc::Sender<Dated>, mpsc::Receiver<Dated>),
     counting: bool,
     finding: bool,
     inquiries: looking::Inquiries,

@@ -54,6 +54,9 @@ impl Done {
     }
 }
 
+/// The same with the numbering of the frames when it was begun.
+pub(super) type Dated = (usize, Done);
+
 /// A run that is looked for.
 pub(super) struct Opening {
     pub paths: Vec<PathBuf>,
