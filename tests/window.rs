@@ -2,6 +2,9 @@
 
 #[path = "window/cells.rs"]
 mod cells;
+#[cfg(unix)]
+#[path = "window/colours.rs"]
+mod colours;
 #[path = "window/desktop.rs"]
 mod desktop;
 #[cfg(unix)]

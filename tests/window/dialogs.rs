@@ -16,10 +16,30 @@ fn open(folder: &Path, programs: &Path) -> Window {
 
 /// A zenity that chooses what the file `answer` says, and is closed without a choice where there is
 /// no such file.
-fn write_zenity(programs: &Path, answer: &Path) {
-    let path = programs.join("zenity");
-    write(&path, format!("#!/bin/sh\nread -r line < '{}' && echo \"$line\"\n", answer.display())).unwrap();
-    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+pub struct Zenity {
+    programs: PathBuf,
+    answer: PathBuf,
+}
+
+impl Zenity {
+    pub fn new(folder: &Path) -> Zenity {
+        let (programs, answer) = (folder.join("programs"), folder.join("answer"));
+        create_dir(&programs).unwrap();
+        let path = programs.join("zenity");
+        write(&path, format!("#!/bin/sh\nread -r line < '{}' && echo \"$line\"\n", answer.display()))
+            .unwrap();
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+        Zenity { programs, answer }
+    }
+
+    pub fn choose(&self, path: &Path) {
+        write(&self.answer, format!("{}\n", path.display())).unwrap();
+    }
+
+    /// Opens the window on the demo.
+    pub fn open(&self, folder: &Path) -> Window {
+        open(folder, &self.programs)
+    }
 }
 
 #[test]
@@ -29,13 +49,11 @@ fn what_a_dialog_chooses_is_opened_loaded_and_saved() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let (run, programs) = (folder.path().join("run"), folder.path().join("programs"));
+    let run = folder.path().join("run");
     create_dir(&run).unwrap();
-    create_dir(&programs).unwrap();
-    let answer = folder.path().join("answer");
-    write_zenity(&programs, &answer);
-    let choose = |path: &Path| write(&answer, format!("{}\n", path.display())).unwrap();
-    let mut window = open(folder.path(), &programs);
+    let zenity = Zenity::new(folder.path());
+    let choose = |path: &Path| zenity.choose(path);
+    let mut window = zenity.open(folder.path());
 
     window.key("ctrl+o");
     window.wait_for("dialog closed");
@@ -73,7 +91,7 @@ fn what_a_dialog_chooses_is_opened_loaded_and_saved() {
         assert_eq!((picture.width, picture.height), (120, 90));
     }
 
-    remove_file(&answer).unwrap();
+    remove_file(&zenity.answer).unwrap();
     window.key("ctrl+s");
     window.wait_for("dialog closed");
     assert!(!window.said.iter().any(|line| line.starts_with("event: error")), "{:#?}", window.said);

@@ -160,3 +160,65 @@ fn a_run_begins_and_fills_up_while_it_is_watched() {
     window.wait_for("picture frame=0");
     assert!(!window.said.iter().any(|line| line.starts_with("event: error")), "{:#?}", window.said);
 }
+
+#[test]
+fn a_path_of_keyframes_is_exported_as_the_command_line_goes_along_it() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    write_vtk(&folder.path().join("z.vtk"), 30, true);
+    let mut window = Window::open(folder.path(), &["*.vtk", "--size", "60x45"]);
+    window.wait_for_full_picture();
+    window.key("shift+k");
+    window.key("ctrl+Right");
+    window.wait_for("picture frame=2");
+    window.drag("picture", [0.3, 0.5], [0.7, 0.4]);
+    window.wait_for_full_picture();
+    window.key("shift+k");
+    window.rest();
+    let (seen, view) = window.save(folder.path());
+    let keys: Vec<f64> = view.path.keyframes.iter().map(|key| key.frame).collect();
+    assert_eq!(keys, [0.0, 2.0]);
+    assert_ne!(view.path.keyframes[0].camera, view.path.keyframes[1].camera);
+    window.key("ctrl+shift+s");
+    window.wait_for_area("export");
+    window.rest();
+    window.click("export", [0.5, 0.5]);
+    window.wait_for("saved");
+    let rendered = rendered(folder.path(), &seen.with_extension("json"), 3);
+    for (index, rendered) in rendered.iter().enumerate() {
+        let exported = image_file::read(&folder.path().join(format!("frame-{index:04}.png"))).unwrap();
+        assert_eq!(&exported, rendered, "frame {index}");
+    }
+    // At its keyframe, the path is what was seen.
+    assert_eq!(image_file::read(&seen).unwrap(), rendered[2]);
+    assert!(visible(&rendered[2]) > 20 && rendered[0] != rendered[1]);
+}
+
+#[test]
+fn a_camera_goes_through_the_clipboard() {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    let mut window = Window::open(folder.path(), &[".", "--size", "60x45"]);
+    window.wait_for_full_picture();
+    let (_, before) = window.save(folder.path());
+    window.key("ctrl+shift+c");
+    window.wait_for("copied camera");
+    window.drag("picture", [0.3, 0.5], [0.7, 0.4]);
+    window.wait_for_full_picture();
+    let (_, away) = window.save(folder.path());
+    assert_ne!(away.camera, before.camera);
+    window.key("ctrl+shift+v");
+    window.wait_for("pasted camera");
+    window.wait_for_full_picture();
+    window.rest();
+    let (_, back) = window.save(folder.path());
+    assert_same(&back, &before);
+}

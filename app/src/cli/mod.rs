@@ -63,7 +63,7 @@ pub struct WindowArguments {
     pub view: ViewArguments,
     #[command(flatten)]
     pub device: DeviceArguments,
-    /// Show the newest frame, and every new one as the solver writes it
+    /// Show the newest frame, and every new one as the solver writes it; FILE may be a folder without any as yet
     #[arg(long)]
     pub follow: bool,
     /// Write a line on standard error for each thing that happens

@@ -69,6 +69,7 @@ impl Desk {
         let session = &mut self.session;
         match filed {
             Filed::Listed(saved, wrong) => {
+                session.log(format!("functions {}", saved.len()));
                 self.editor.presets.saved = saved;
                 wrong.into_iter().for_each(|text| session.complain(text));
             }

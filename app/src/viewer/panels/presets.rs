@@ -7,6 +7,7 @@ use renderer::{ControlPoint, TransferView};
 use crate::viewer::icons::{self, Icon};
 use crate::viewer::kept::library::Saved;
 use crate::viewer::theme;
+use crate::viewer::widgets::Areas;
 
 /// A named transfer function.
 pub struct Preset {
@@ -97,7 +98,7 @@ pub struct Presets {
 impl Presets {
     pub fn show(&mut self, ui: &mut Ui, transfer: &mut TransferView) {
         let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        MenuButton::new("Presets").config(config).ui(ui, |ui| {
+        let (menu, _) = MenuButton::new("Presets").config(config).ui(ui, |ui| {
             ui.set_min_width(190.0);
             for preset in &PRESETS {
                 if ui.button(preset.name).on_hover_text(preset.hint).clicked() {
@@ -112,22 +113,28 @@ impl Presets {
             ui.separator();
             self.own(ui, transfer);
             ui.separator();
-            for (label, wish) in
-                [("Import from ParaView…", Wish::Import), ("Export for ParaView…", Wish::Export)]
-            {
-                if ui.button(label).clicked() {
+            for (label, area, wish) in [
+                ("Import from ParaView…", "import", Wish::Import),
+                ("Export for ParaView…", "export-colours", Wish::Export),
+            ] {
+                let button = ui.button(label);
+                Areas::mark(ui, area, button.rect);
+                if button.clicked() {
                     self.wishes.push(wish);
                     ui.close();
                 }
             }
         });
+        Areas::mark(ui, "presets", menu.rect);
     }
 
     /// Functions saved under a name, and a field to save this one.
     fn own(&mut self, ui: &mut Ui, transfer: &mut TransferView) {
         for Saved { name, transfer: saved } in &self.saved {
             ui.horizontal(|ui| {
-                if ui.button(name).clicked() {
+                let button = ui.button(name);
+                Areas::mark(ui, "preset", button.rect);
+                if button.clicked() {
                     (transfer.points, transfer.map) = (saved.points.clone(), saved.map.clone());
                     ui.close();
                 }
@@ -141,6 +148,7 @@ impl Presets {
         ui.horizontal(|ui| {
             let field = egui::TextEdit::singleline(&mut self.name).hint_text("name").desired_width(118.0);
             let field = ui.add(field).accessible_name("Name of the preset");
+            Areas::mark(ui, "preset-name", field.rect);
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
             let named = !self.name.trim().is_empty();
             let button = egui::Button::new("Save").min_size(egui::vec2(0.0, theme::ROW_HEIGHT));

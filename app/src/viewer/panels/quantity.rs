@@ -125,7 +125,9 @@ fn survey(ui: &mut Ui, session: &mut Session, role: Role) {
             Survey::Running(share) => {
                 let bar = egui::ProgressBar::new(share).desired_width(84.0).desired_height(8.0);
                 ui.add(bar.fill(theme::colours().accent));
-                if ui.button("Cancel").clicked() {
+                let cancel = ui.button("Cancel");
+                widgets::Areas::mark(ui, "cancel-reading", cancel.rect);
+                if cancel.clicked() {
                     session.ranges.survey = Survey::Unwanted;
                 }
             }
@@ -135,7 +137,9 @@ fn survey(ui: &mut Ui, session: &mut Session, role: Role) {
             _ => {
                 ui.label(text);
                 let hint = "Reads every frame in the background; until then, frames count that were in view";
-                if ui.button("Read all").on_hover_text(hint).clicked() {
+                let read = ui.button("Read all").on_hover_text(hint);
+                widgets::Areas::mark(ui, "read-all", read.rect);
+                if read.clicked() {
                     session.ranges.survey = Survey::Wanted;
                 }
             }
