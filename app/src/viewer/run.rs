@@ -55,8 +55,8 @@ impl Run {
         self.live = Live::start(paths, &self.sequence, wake);
         let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
         self.grows_in = Sequence::may_grow(paths).then(|| names.join(", "));
-        if let (true, [first, ..]) = (self.sequence.is_empty(), paths) {
-            self.title = std::path::absolute(first)
+        if let ([folder], true) = (paths, self.sequence.len() < 2 && paths.iter().all(|path| path.is_dir())) {
+            self.title = std::path::absolute(folder)
                 .map_or_else(|_| String::new(), |path| file_name(&path.to_string_lossy()));
         }
     }

@@ -112,7 +112,11 @@ fn recent(ui: &mut Ui, desk: &Desk, wish: &mut Option<Wish>) {
     let height = (ui.available_height() - 40.0).max(60.0);
     ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
         for run in runs {
-            let frames = if run.frames == 1 { "1 frame".into() } else { format!("{} frames", run.frames) };
+            let frames = match run.frames {
+                0 => "no frame as yet".into(),
+                1 => "1 frame".into(),
+                more => format!("{more} frames"),
+            };
             let line = entry(ui, &run.title, &format!("{frames}, {}", kept::ago(run.when, kept::now())));
             let place: Vec<String> = run.paths.iter().map(|path| path.display().to_string()).collect();
             if line.clicked() {
