@@ -57,7 +57,6 @@ fn wrong_arguments_give_status_2() {
         &["info"],
         &["compare", "a.png"],
         &["--follow", "one.vtk"],
-        &["--follow", "nowhere"],
         &["--follow", "demo"],
         &["--follow"],
         &["--no-such-flag"],
@@ -78,7 +77,8 @@ fn failures_give_status_1_and_one_line_that_names_the_file() {
     write("bound.json", r#"{"sampling": {"bound": "tight"}}"#);
     write("broken.json", "{\n");
     write("a.png", "no picture");
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&[&str], &str); 11] = [
+        (&["--follow", "nowhere"], "nowhere: no such file or directory"),
         (&["info", "no.vtk"], "no.vtk: no such file or directory"),
         (&["info", "demo:cube:5"], "demo:cube:5: there is no demo `cube`"),
         (&["info", "run/frame_2.vtk"], "run/frame_2.vtk: "),

@@ -153,22 +153,12 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> ExitCode {
     ExitCode::from(if error.is::<WrongArguments>() { 2 } else { 1 })
 }
 
-/// Says what is wrong with `--follow` where no frame can come to what the files are.
-fn follows_nothing(files: &[PathBuf]) -> Result<(), WrongArguments> {
-    if Sequence::may_grow(files) {
-        return Ok(());
-    }
-    let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
-    let names = if names.is_empty() { "the embedded run".into() } else { names.join(" ") };
-    let what = "is no folder that new frames could come to: name one that is there, or a pattern, or a .pvd";
-    Err(WrongArguments(format!("--follow: {names} {what}")))
-}
-
 fn open_window(arguments: &WindowArguments) -> anyhow::Result<()> {
-    if arguments.follow {
-        follows_nothing(&arguments.files)?;
-    }
     let sequence = Sequence::open_growing(&arguments.files, &|_| false)?;
+    if arguments.follow && !sequence.may_grow() {
+        let what = "no frames can come to what was named: name a folder, a pattern or a .pvd that is there";
+        return Err(WrongArguments(format!("--follow: {what}")).into());
+    }
     let mut view = arguments.view.resolve(&sequence)?;
     if arguments.files.is_empty() && arguments.view.shown.view.is_none() {
         // The start page leaves less room than the demo's own camera needs.

@@ -14,6 +14,7 @@ use crate::io_error::describe;
 pub struct Sequence {
     sources: Vec<Arc<Source>>,
     notes: Vec<String>,
+    may_grow: bool,
 }
 
 /// Whether a file is a frame of the run already.
@@ -147,15 +148,15 @@ impl Sequence {
         new.into_iter().enumerate().map(|(before, (behind, source))| (before + behind, source)).collect()
     }
 
-    /// Whether frames may come to what `arguments` name: to folders, patterns and collections.
-    pub fn may_grow(arguments: &[PathBuf]) -> bool {
-        let grows = |path: &PathBuf| path.is_dir() || has_ending(path, "pvd") || is_pattern(path);
-        arguments.iter().any(grows)
+    /// Whether frames may come to it: where a folder, a pattern or a collection was named.
+    pub fn may_grow(&self) -> bool {
+        self.may_grow
     }
 
     fn add(&mut self, argument: &Path, growing: Option<IsKnown>) -> Result<(), SequenceError> {
         let text = argument.to_string_lossy();
         let error = |what: String| SequenceError { argument: text.clone().into_owned(), what };
+        self.may_grow |= argument.is_dir() || argument.is_file() || is_pattern(&text);
         if text == "demo" {
             self.add_demo().map_err(error)?;
         } else if let Some(scene) = text.strip_prefix("demo:") {
@@ -166,7 +167,7 @@ impl Sequence {
             self.add_files(files);
         } else if argument.is_file() {
             self.add_collection(argument).map_err(error)?;
-        } else if is_pattern(argument) {
+        } else if is_pattern(&text) {
             self.add_files(matches(&text).map_err(error)?);
         } else {
             // The system's own words: not found, no permission, a broken link.
@@ -281,8 +282,8 @@ impl FrameSource for Source {
 const ENDINGS: [&str; 12] =
     ["vtk", "vtu", "vtp", "bgeo", "ply", "xyz", "csv", "npz", "npy", "hdf5", "h5", "hdf"];
 
-fn is_pattern(path: &Path) -> bool {
-    !path.is_file() && path.to_string_lossy().contains(['*', '?', '['])
+fn is_pattern(argument: &str) -> bool {
+    argument.contains(['*', '?', '['])
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {

@@ -61,7 +61,7 @@ impl Watcher {
 
     /// Whether there is any file to look at, or to come.
     pub fn is_idle(&self) -> bool {
-        self.files.is_empty() && !Sequence::may_grow(&self.arguments)
+        self.files.is_empty() && !self.sequence.may_grow()
     }
 
     /// Looks at all files, and for new ones. Waits for the disk.

@@ -53,11 +53,15 @@ impl Run {
     /// Looks after the files that `paths`, of which this run was made, name from now on.
     pub fn watch(&mut self, paths: &[PathBuf], wake: &Wake) {
         self.live = Live::start(paths, &self.sequence, wake);
+        if !self.sequence.may_grow() {
+            return;
+        }
         let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-        self.grows_in = Sequence::may_grow(paths).then(|| names.join(", "));
-        if let ([folder], true) = (paths, self.sequence.len() < 2 && paths.iter().all(|path| path.is_dir())) {
-            self.title = std::path::absolute(folder)
-                .map_or_else(|_| String::new(), |path| file_name(&path.to_string_lossy()));
+        self.grows_in = Some(names.join(", "));
+        if let ([only], 0..2) = (paths, self.sequence.len()) {
+            // A file would not be what the others are called by, too.
+            let path = std::path::absolute(only).unwrap_or_else(|_| only.clone());
+            self.title = file_name(&path.to_string_lossy());
         }
     }
 
