@@ -2,7 +2,7 @@
 
 mod plan;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
@@ -174,6 +174,11 @@ impl Exports {
         self.list.iter().filter(|export| export.is_pending()).count()
     }
 
+    /// Whether a file is on its way to `path`.
+    pub fn will_write(&self, path: &Path) -> bool {
+        self.list.iter().any(|export| export.is_pending() && export.plan.path == path)
+    }
+
     /// The one that is being made, or will be next.
     pub fn first_pending(&mut self) -> Option<&mut Export> {
         self.list.iter_mut().find(|export| export.is_pending())
@@ -286,10 +291,12 @@ mod tests {
         exports.add(plan(folder.path().join("c.jpg")));
         exports.poll(&GpuOptions::default());
         assert!(matches!(exports.list[0].state, State::Running));
+        assert!(exports.will_write(&folder.path().join("b-{}.exr")));
         exports.list[1].cancel();
         let news = settle(&mut exports);
         assert!(matches!(&exports.list[0].state, State::Done(summary) if summary.frames == 2));
         assert!(matches!(exports.list[1].state, State::Cancelled));
+        assert!(!exports.will_write(&folder.path().join("b-{}.exr")));
         assert!(matches!(&exports.list[2].state, State::Failed(why) if why.contains("c.jpg")));
         assert!(news.contains(&News::Done(folder.path().join("new/a-{}.png"))));
         assert!(folder.path().join("new/a-1.png").exists() && !folder.path().join("b-0.exr").exists());

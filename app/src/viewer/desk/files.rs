@@ -1,6 +1,6 @@
 //! Opening runs and views, saving views and pictures.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::{Desk, Done, Opening};
 use crate::frames::Sequence;
@@ -91,7 +91,11 @@ impl Desk {
             1 => stem.clone(),
             number => format!("{stem}-{number}"),
         });
-        let free = |name: &String| !Path::new(&format!("{name}.png")).exists();
+        let queue = &self.exporting.queue;
+        let free = |name: &String| {
+            let path = PathBuf::from(format!("{name}.png"));
+            !path.exists() && !queue.will_write(&path)
+        };
         if let Some(name) = names.take(10_000).find(free) {
             self.save_view(format!("{name}.json").into());
             self.save_picture(format!("{name}.png").into());
