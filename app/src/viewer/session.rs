@@ -2,6 +2,7 @@
 
 mod cameras;
 mod costs;
+mod fields;
 mod history;
 mod live;
 mod looking;
@@ -21,6 +22,7 @@ use renderer::{Bounds, SelectView, View};
 
 use crate::frames::{Frame, FrameState, Insertion};
 
+use super::kept::LastSession;
 use super::messages::Messages;
 use super::orbit_camera::OrbitCamera;
 use super::playback::{Arrival, Playback};
@@ -81,6 +83,8 @@ pub struct Session {
     pub ranges: Ranges,
     /// Frames that came between others, since the program was started.
     insertions: Vec<Insertion>,
+    /// Whether the fields in the view were chosen for another run, no frame of this one being known.
+    inherits_fields: bool,
     /// Frames that were reported as bad.
     told: BTreeSet<usize>,
     /// Whether the playhead goes to each new frame of a run that is being written.
@@ -133,6 +137,7 @@ impl Session {
             adapter: None,
             ranges: Ranges::default(),
             insertions: Vec::new(),
+            inherits_fields: false,
             told: BTreeSet::new(),
             following: false,
             told_left_out: BTreeSet::new(),
@@ -163,6 +168,8 @@ impl Session {
         self.pool = Pool::default();
         self.probe = None;
         self.looking.forget();
+        (self.field_ranges, self.statistics) = (None, None);
+        self.inherits_fields = !first;
         self.history = History::default();
         self.cameras = Cameras::default();
         self.ranges.clear();
@@ -177,6 +184,7 @@ impl Session {
             self.view.select = SelectView::default();
             self.view.transfer.reference_length = None;
             self.forget_ranges();
+            self.forget_cameras();
         }
     }
 
@@ -186,11 +194,20 @@ impl Session {
             (Some(camera), Some(given)) if given.is_settled() => camera.adopt(given),
             _ => self.camera = None,
         }
+        self.inherits_fields = false;
         self.range_source = RangeSource::of(view.quantity.range);
         self.opacity_source = RangeSource::of(view.quantity.opacity.as_ref().and_then(|field| field.range));
         let size = [view.image.width, view.image.height];
         self.fits_window = self.fits_window && (self.room == [0, 0] || size == self.room);
         self.view = view;
+    }
+
+    /// Goes on as in `last`, whose run is open.
+    pub fn restore(&mut self, last: LastSession) {
+        self.adopt(last.view);
+        // The room was another one, so sizes tell nothing.
+        self.fits_window = last.fits_window.unwrap_or(self.fits_window);
+        self.jump(last.frame);
     }
 
     pub fn run(&self) -> Option<&Run> {
@@ -300,6 +317,7 @@ impl Session {
         for warning in &frame.warnings {
             self.messages.warn(format!("{name}: {warning}"));
         }
+        self.drop_missing_fields(&frame);
         self.frame = Some((index, frame));
     }
 
@@ -383,3 +401,7 @@ impl Session {
 #[cfg(test)]
 #[path = "session_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "session/opening_tests.rs"]
+mod opening_tests;

@@ -9,22 +9,22 @@ use crate::viewer::orbit_camera::Side;
 use crate::viewer::render_thread::prepare::Preparation;
 use crate::viewer::render_thread::{Report, Shown};
 
-const ROOM: [u32; 2] = [640, 400];
+pub(super) const ROOM: [u32; 2] = [640, 400];
 
-fn open(frames: &[&str]) -> Session {
+pub(super) fn open(frames: &[&str]) -> Session {
     let mut session = Session::new(View::default());
     session.open(run(frames));
     session
 }
 
-fn run(frames: &[&str]) -> Run {
+pub(super) fn run(frames: &[&str]) -> Run {
     let paths: Vec<PathBuf> = frames.iter().map(PathBuf::from).collect();
     let wake: Wake = Arc::new(|| {});
     Run::new(&Sequence::open(&paths).unwrap(), 1 << 20, &wake)
 }
 
 /// Polls until the frame at the playhead is there, or nothing can be done about it.
-fn settle(session: &mut Session) {
+pub(super) fn settle(session: &mut Session) {
     let limit = Instant::now() + Duration::from_secs(20);
     loop {
         session.poll(Instant::now());
@@ -47,7 +47,7 @@ fn bad_file(folder: &tempfile::TempDir) -> String {
 }
 
 /// What the renderer reports of the frame in view, with a picture of one grey pixel.
-fn picture(session: &Session) -> Report {
+pub(super) fn picture(session: &Session) -> Report {
     let (index, frame) = session.frame().unwrap();
     let (_, facts) = Preparation::default().scene(frame, &session.complete_view()).unwrap();
     Report::Picture(Box::new(Shown {

@@ -142,6 +142,7 @@ impl Desk {
             title: self.session.run()?.title.clone(),
             frame: self.session.playback.index(),
             view: self.session.complete_view(),
+            fits_window: Some(self.session.fits_window),
             when: kept::now(),
             ended,
         })

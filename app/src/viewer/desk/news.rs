@@ -82,8 +82,7 @@ impl Desk {
                     self.finding = false;
                     self.open(&sequence, &opening.paths);
                     if let Some(last) = opening.session {
-                        self.session.adopt(last.view);
-                        self.session.jump(last.frame);
+                        self.session.restore(*last);
                     }
                 }
                 Done::Found(_, Err(text)) => {

@@ -12,6 +12,8 @@ pub struct LastSession {
     pub title: String,
     pub frame: usize,
     pub view: View,
+    /// Whether the image had the size that it had in the window; older files do not say.
+    pub fits_window: Option<bool>,
     /// Seconds since 1970.
     pub when: u64,
     /// Whether the program was ended by the user, and not by a crash.
@@ -21,8 +23,8 @@ pub struct LastSession {
 impl LastSession {
     /// Whether this is the same but for the time.
     pub fn is_like(&self, other: &LastSession) -> bool {
-        let LastSession { paths, title, frame, view, when: _, ended } = self;
+        let LastSession { paths, title, frame, view, fits_window, when: _, ended } = self;
         (paths, title, frame, ended) == (&other.paths, &other.title, &other.frame, &other.ended)
-            && view == &other.view
+            && (view, fits_window) == (&other.view, &other.fits_window)
     }
 }

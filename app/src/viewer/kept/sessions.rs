@@ -174,7 +174,8 @@ mod tests {
 
     fn session(title: &str, when: u64, ended: bool) -> LastSession {
         let paths = vec![title.into()];
-        LastSession { paths, title: title.into(), frame: 0, view: View::default(), when, ended }
+        let (title, view) = (title.into(), View::default());
+        LastSession { paths, title, frame: 0, view, fits_window: None, when, ended }
     }
 
     fn open(folder: &Path) -> Sessions {

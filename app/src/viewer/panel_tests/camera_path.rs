@@ -108,3 +108,13 @@ fn a_turntable_turns_with_the_frames_from_wherever_the_user_has_it() {
     let saved = session.saved_view().camera.unwrap();
     assert!(saved.eye.distance(front) < 1e-9, "it is saved as it stands at the first frame");
 }
+
+#[test]
+fn a_path_over_one_frame_can_be_removed() {
+    let mut session = session_over(&["demo:radial:27"]);
+    session.view.path.revolutions = 1.0;
+    let mut harness = path_panel(session);
+    harness.get_by_label("Remove path").click();
+    harness.run();
+    assert!(harness.state().0.view.path.is_empty() && harness.query_by_label("Remove path").is_none());
+}

@@ -12,6 +12,12 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
         let text =
             "A run of one frame has no path. Pictures of it from all sides: sphcast render --turntable N";
         ui.label(RichText::new(text).color(theme::colours().faint));
+        if !session.view.path.is_empty() {
+            ui.label("The view has a path nevertheless, which is saved with it.");
+            if ui.button("Remove").accessible_name("Remove path").clicked() {
+                session.view.path = PathView::default();
+            }
+        }
         return;
     }
     keyframes(ui, session, actions);

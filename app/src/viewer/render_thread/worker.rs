@@ -12,6 +12,7 @@ use renderer::{
 
 use super::{Drawn, IDLE, Job, Looks, Report, Shown, Slot, without_background};
 use crate::frames::Frame;
+use crate::scene::SceneError;
 use crate::viewer::Wake;
 use crate::viewer::inspect::pointing::Shot;
 use crate::viewer::inspect::probe::Probed;
@@ -232,7 +233,7 @@ impl Worker {
         let mut smaller = view.clone();
         smaller.image.width = view.image.width.div_ceil(divisor);
         smaller.image.height = view.image.height.div_ceil(divisor);
-        self.preparation.scene(frame, &smaller).map_err(|error| Stop::Failed(format!("{error:#}")))
+        self.preparation.scene(frame, &smaller).map_err(|error| Stop::Failed(with_advice(&error)))
     }
 
     /// Finds out what is wanted beside the last picture and not known yet.
@@ -358,6 +359,17 @@ impl Worker {
             let pixels = f64::from(scene.width) * f64::from(scene.height) * f64::from(divisor).powi(2);
             self.pace.learn(pixels, divisor, estimate);
         }
+    }
+}
+
+/// Says what is wrong with a scene, and what to do about it where that is a field.
+fn with_advice(error: &anyhow::Error) -> String {
+    let text = format!("{error:#}");
+    match error.downcast_ref() {
+        Some(SceneError::NoSuchField { .. } | SceneError::NoSuchComponent { .. }) => {
+            format!("{text}: choose another under Quantity")
+        }
+        _ => text,
     }
 }
 

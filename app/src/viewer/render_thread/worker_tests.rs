@@ -160,3 +160,15 @@ fn a_moving_picture_that_is_late_has_a_larger_tolerance_and_one_at_rest_the_user
     let last = draw(&job).pop().unwrap();
     assert_eq!((last.divisor, last.sampling.tolerance, last.wished), (1, Some(0.004), Some(0.004)));
 }
+
+#[test]
+fn a_field_that_is_not_there_comes_with_advice() {
+    let sequence = Sequence::open(&[PathBuf::from("demo:radial:27")]).unwrap();
+    let frame = Arc::new(sequence.sources()[0].load(&Default::default()).unwrap());
+    let mut view = View::default();
+    view.quantity.name = Some("dye".into());
+    let Err(error) = Preparation::default().scene(&frame, &view) else { panic!("there is no such field") };
+    let text = "there is no field `dye`; there are: radius: choose another under Quantity";
+    assert_eq!(with_advice(&error), text);
+    assert_eq!(with_advice(&anyhow::anyhow!("no")), "no");
+}

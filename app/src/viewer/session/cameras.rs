@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use renderer::{Bookmark, CameraView, Keyframe};
+use renderer::{Bookmark, CameraView, Keyframe, PathView};
 
 use super::Session;
 use crate::camera_path::{Pose, camera_at, turned};
@@ -112,6 +112,15 @@ impl Session {
         if next != now {
             camera.adopt(&next);
             self.moved_by_itself();
+        }
+    }
+
+    /// Drops what another run was looked at from, and what it is called in pictures.
+    pub(super) fn forget_cameras(&mut self) {
+        self.view.path = PathView::default();
+        self.view.bookmarks.clear();
+        if let Some(look) = &mut self.view.annotations {
+            look.title.clear();
         }
     }
 
