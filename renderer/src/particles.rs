@@ -267,7 +267,7 @@ impl Quantity {
 
     /// Takes the quantity of each source row of `particles` from `value(row)`. The range of `spread` is
     /// u = 0 and u = 1; the finite minimum and maximum over the whole frame, selected or not, where it is
-    /// `None`, on a logarithmic scale those of what is positive. A range of no width is a threshold: its
+    /// `None`, on a logarithmic scale those of what is positive, its upper 30 decades at most. A range of no width is a threshold: its
     /// own value is u = ½, interpolated values below it are 0 and those above it 1.
     pub fn new(
         particles: &ParticleSet,
@@ -334,7 +334,8 @@ pub(crate) fn next_id() -> u64 {
     NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
-/// Finite minimum and maximum, of what is positive on a logarithmic scale; [0, 1] or [1, 10] of nothing.
+/// Finite minimum and maximum, on a logarithmic scale the upper 30 decades of what is positive; [0, 1] or
+/// [1, 10] of nothing.
 fn finite_range(count: usize, scale: Scale, value: impl Fn(usize) -> f64 + Sync + Send) -> [f64; 2] {
     let counts = |q: &f64| q.is_finite() && (scale == Scale::Linear || *q > 0.0);
     let [low, high] = (0..count)
@@ -344,7 +345,7 @@ fn finite_range(count: usize, scale: Scale, value: impl Fn(usize) -> f64 + Sync 
         .fold(|| EMPTY, |[low, high], q| [low.min(q), high.max(q)])
         .reduce(|| EMPTY, join);
     match scale {
-        _ if low <= high => [low, high],
+        _ if low <= high => scale.fitted([low, high]),
         Scale::Linear => [0.0, 1.0],
         Scale::Log => [1.0, 10.0],
     }

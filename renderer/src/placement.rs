@@ -12,7 +12,26 @@ pub enum Scale {
     Log,
 }
 
+/// The largest ratio of the ends of a range on a logarithmic scale. With a larger one the smallest values
+/// would leave the device's numbers, which reach down to 10⁻³⁸.
+pub(crate) const LARGEST_RATIO: f64 = 1e30;
+
 impl Scale {
+    /// What of the extremes of a quantity is the range on this scale: all, or on a logarithmic one, where `low`
+    /// is positive, no more than the upper 30 decades.
+    pub fn fitted(self, [low, high]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Scale::Linear => [low, high],
+            Scale::Log => [low.max(high / LARGEST_RATIO), high],
+        }
+    }
+
+    /// Whether the ends of a range have places on this scale.
+    pub fn holds(self, [low, high]: [f64; 2]) -> bool {
+        // Ends that were rounded are as good.
+        self == Scale::Linear || (low > 0.0 && low >= high / (LARGEST_RATIO * (1.0 + 1e-9)))
+    }
+
     /// u of a value, 0 and 1 at the ends of the range, beyond that outside; ½ in a range of no width.
     /// Values that are not positive are at −∞ on a logarithmic scale.
     pub fn u(self, [low, high]: [f64; 2], value: f64) -> f64 {
@@ -124,7 +143,7 @@ impl Placement {
 
     /// ln of the ratio of the range's ends on a logarithmic scale.
     pub(crate) fn log_width(&self) -> Option<f64> {
-        (self.scale == Scale::Log).then(|| (self.range[1] / self.range[0]).ln())
+        (self.scale == Scale::Log).then(|| self.range[1].ln() - self.range[0].ln())
     }
 }
 
@@ -145,6 +164,23 @@ mod tests {
         }
         assert_eq!(Scale::Log.u([1.0, 10.0], -3.0), f64::NEG_INFINITY);
         assert_eq!(Scale::Linear.u([4.0, 4.0], 9.0), 0.5);
+    }
+
+    #[test]
+    fn a_logarithmic_range_is_no_wider_than_the_device_can_tell_apart() {
+        assert_eq!(Scale::Log.fitted([1e-310, 0.8]), [0.8 / LARGEST_RATIO, 0.8]);
+        assert_eq!(Scale::Log.fitted([1e-3, 0.8]), [1e-3, 0.8]);
+        assert_eq!(Scale::Linear.fitted([1e-310, 0.8]), [1e-310, 0.8]);
+        for high in [1e-300, 3e-7, 0.8, 1e15, f64::MAX] {
+            assert!(Scale::Log.holds(Scale::Log.fitted([f64::MIN_POSITIVE / 8.0, high])), "{high:e}");
+            assert!(Scale::Log.holds([high, high]));
+        }
+        assert!(Scale::Log.holds([1e-15, 1e15]));
+        for wide in [[1e-300, 1e300], [1e-16, 1e15], [0.0, 1.0], [-1.0, 1.0]] {
+            assert!(!Scale::Log.holds(wide) && Scale::Linear.holds(wide), "{wide:?}");
+        }
+        let huge = Placement::new([1e-300, 1e300], Scale::Log, false).log_width().unwrap();
+        assert!((huge - 600.0 * 10.0_f64.ln()).abs() < 1e-9, "{huge}");
     }
 
     #[test]

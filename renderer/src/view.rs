@@ -112,7 +112,7 @@ pub struct QuantityView {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// The finite extremes over the frame where it is absent; on a logarithmic scale, those of what is
-    /// positive.
+    /// positive, its upper 30 decades at most.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
     /// Another field that decides the opacity; the same one where it is absent.
@@ -241,6 +241,9 @@ fn check_range(range: Option<[f64; 2]>, scale: Scale, key: &'static str) -> Resu
     })?;
     check(scale == Scale::Linear || low > 0.0, key, || {
         format!("[{low}, {high}] does not begin above 0, as a logarithmic scale needs it")
+    })?;
+    check(scale.holds([low, high]), key, || {
+        format!("[{low:e}, {high:e}] is wider than the 30 decades of a logarithmic scale")
     })
 }
 

@@ -137,10 +137,10 @@ fn share_of_change([a]: [f64; 1], [b]: [f64; 1]) -> f64 {
     if a == b { 0.0 } else { (b - a).abs() / a.max(b) }
 }
 
-/// How many parts a segment is cut into.
+/// How many parts a segment is cut into. More than a function may have points are an error anyway.
 fn parts(change: f64, width: f64, placement: &Placement) -> u32 {
     let log_width = placement.log_width().unwrap_or(0.0);
-    (512.0 * change * width * log_width).sqrt().ceil().max(1.0) as u32
+    (512.0 * change * width * log_width).sqrt().ceil().clamp(1.0, TransferFunction::MAX_POINTS as f64) as u32
 }
 
 fn merged(colours: &[Node<3>], opacities: &[Node<1>]) -> Vec<ControlPoint> {
@@ -191,8 +191,8 @@ fn between<const N: usize>(a: Node<N>, b: Node<N>, u: f32) -> [f32; N] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::particles::ParticleSet;
-    use crate::placement::{Scale, Spread};
+    use crate::particles::{ParticleSet, RawParticle};
+    use crate::placement::{LARGEST_RATIO, Scale, Spread};
     use crate::view::MapView;
 
     /// Numbers in [0, 1) that look random.
@@ -280,6 +280,25 @@ mod tests {
                 }
                 assert!(device.points().len() < 1500, "{}", device.points().len());
             }
+        }
+    }
+
+    #[test]
+    fn the_smallest_of_numbers_makes_no_endless_scale() {
+        let values = [1e-310, 0.5, 0.8];
+        let place = |row: usize| [row as f64, 0.0, 0.0];
+        let three =
+            ParticleSet::new(3, |row| RawParticle { position: place(row), support_radius: 1.0, volume: 1.0 });
+        for outside in [false, true] {
+            let spread = Spread { range: None, scale: Scale::Log, outside };
+            let quantity = Quantity::new(&three, spread, |row| values[row]);
+            assert_eq!(quantity.range(), [0.8 / LARGEST_RATIO, 0.8]);
+            let device = TransferFunction::on_device(&Random(4).view(), &quantity, [None; 2]).unwrap();
+            assert!(device.points().len() < 1500, "{}", device.points().len());
+            // Not even where nobody looks at the range.
+            let wide = self::quantity([1e-300, 1e300], Scale::Log, outside);
+            let device = TransferFunction::on_device(&Random(4).view(), &wide, [None; 2]);
+            assert!(device.is_err() || device.unwrap().points().len() <= TransferFunction::MAX_POINTS);
         }
     }
 

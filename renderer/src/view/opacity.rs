@@ -15,7 +15,7 @@ pub struct OpacityView {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// The finite extremes over the frame where it is absent; on a logarithmic scale, those of what is
-    /// positive. Beyond its ends, opacities are those at the ends.
+    /// positive, its upper 30 decades at most. Beyond its ends, opacities are those at the ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "super::is_linear")]
@@ -60,9 +60,12 @@ mod tests {
         assert!(error.to_string().contains("rnge"), "{error}");
         let falling = OpacityView { range: Some([1.0, 0.0]), ..OpacityView::default() };
         let from_zero = OpacityView { range: Some([0.0, 1.0]), scale: Scale::Log, name: None };
-        for wrong in [&falling, &from_zero] {
+        let wide = OpacityView { range: Some([1e-300, 1e300]), scale: Scale::Log, name: None };
+        for wrong in [&falling, &from_zero, &wide] {
             assert_eq!(wrong.validate().unwrap_err().key, "quantity.opacity.range");
         }
-        assert!(OpacityView { scale: Scale::Linear, ..from_zero }.validate().is_ok());
+        for linear in [from_zero, wide].map(|view| OpacityView { scale: Scale::Linear, ..view }) {
+            assert!(linear.validate().is_ok());
+        }
     }
 }

@@ -121,7 +121,7 @@ fn without_value(frame: &Frame, axes: [&Axis; 2]) -> usize {
 
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// Finite minimum and maximum over a frame, on a logarithmic scale of what is positive.
+/// Finite minimum and maximum over a frame, on a logarithmic scale the upper 30 decades of what is positive.
 pub fn extremes(frame: &Frame, selection: &Selection, scale: Scale) -> Option<[f64; 2]> {
     let [low, high] = (0..frame.len())
         .into_par_iter()
@@ -129,7 +129,7 @@ pub fn extremes(frame: &Frame, selection: &Selection, scale: Scale) -> Option<[f
         .filter(|q| is_shown(*q, scale))
         .fold(|| NOTHING, |[low, high], q| [low.min(q), high.max(q)])
         .reduce(|| NOTHING, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    (low <= high).then_some([low, high])
+    (low <= high).then(|| scale.fitted([low, high]))
 }
 
 /// The values below which `shares` of all lie; there is at least one value.
@@ -230,6 +230,11 @@ mod tests {
         assert!(filled.windows(2).all(|pair| pair[1] - pair[0] >= BARS / 3 - 1), "{filled:?}");
         let none = Question { colour: log([0.1, 0.9]), ..question(&[-1.0], None) };
         assert_eq!(none.answer().colour.between, None);
+        let wide = Question {
+            colour: Axis { quantiles: None, ..log([0.0, 1.0]) },
+            ..question(&[1e-310, 1.0], None)
+        };
+        assert_eq!(wide.answer().colour.extremes, Some([1.0 / 1e30, 1.0]));
     }
 
     #[test]

@@ -197,7 +197,7 @@ impl Range {
         ui.add_sized([BETWEEN, size.y], egui::Label::new("to"));
         let upper = ui.add_sized(size, widgets::number(&mut high, scale)).accessible_name(names[1]);
         let changed = lower.changed() || upper.changed();
-        let possible = self.scale == Scale::Linear || low.min(high) > 0.0;
+        let possible = self.scale.holds([low.min(high), low.max(high)]);
         if changed && possible && low.is_finite() && high.is_finite() {
             self.source = RangeSource::Fixed;
             // A range is ascending; whichever end was dragged past the other carries it along.

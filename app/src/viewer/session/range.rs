@@ -207,10 +207,10 @@ impl Session {
         let field = self.field_of(role)?;
         match [self.range_source, self.opacity_source][role as usize] {
             RangeSource::Frame => None,
-            RangeSource::Seen => self.ranges.seen.get(&field).map(|(extremes, _)| *extremes),
+            RangeSource::Seen => self.ranges.seen.get(&field).map(|(extremes, _)| field.1.fitted(*extremes)),
             RangeSource::Quantiles => {
                 let known = self.ranges.between[role as usize].as_ref();
-                known.filter(|(of, _)| *of == field).map(|(_, between)| *between)
+                known.filter(|(of, _)| *of == field).map(|(_, between)| field.1.fitted(*between))
             }
             RangeSource::Fixed => by_hand,
         }
@@ -227,7 +227,7 @@ impl Session {
             (Role::Opacity, None) => return,
         };
         *scale = to;
-        if to == Scale::Log && range.is_some_and(|[low, _]| low <= 0.0) {
+        if range.is_some_and(|range| !to.holds(range)) {
             *range = None;
             if *source == RangeSource::Fixed {
                 *source = RangeSource::Frame;
