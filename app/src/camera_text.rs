@@ -8,6 +8,20 @@ use serde_json::Value;
 /// What the text starts with in messages.
 const WHERE: &str = "clipboard";
 
+/// All that a view may hold, and a camera may not.
+const VIEW: [&str; 10] = [
+    "camera",
+    "image",
+    "quantity",
+    "particles",
+    "select",
+    "transfer",
+    "sampling",
+    "annotations",
+    "bookmarks",
+    "path",
+];
+
 /// The camera as `view.json` writes it.
 pub fn to_text(camera: &CameraView) -> anyhow::Result<String> {
     Ok(serde_json::to_string_pretty(camera)?)
@@ -20,12 +34,7 @@ pub fn to_text(camera: &CameraView) -> anyhow::Result<String> {
 pub fn from_text(text: &str) -> anyhow::Result<CameraView> {
     let json = |error: serde_json::Error| anyhow!("{WHERE}: is neither a camera nor a view: {error}");
     let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(json)?;
-    // All that a view may hold, and a camera may not.
-    let is_view = value.as_object().is_some_and(|keys| {
-        ["camera", "image", "quantity", "particles", "transfer", "sampling"]
-            .iter()
-            .any(|key| keys.contains_key(*key))
-    });
+    let is_view = value.as_object().is_some_and(|keys| VIEW.iter().any(|key| keys.contains_key(*key)));
     let camera = if is_view {
         let view = View::from_json(text.trim_start_matches('\u{feff}')).map_err(json)?;
         match view.camera {
@@ -62,6 +71,10 @@ mod tests {
         assert!(wrong("hello").starts_with("clipboard: is neither a camera nor a view: expected value"));
         assert!(wrong(r#"{"eyes": [0, 0, 5]}"#).contains("unknown field `eyes`"));
         assert_eq!(wrong(r#"{"image": {}}"#), "clipboard: the view has no camera");
+        for key in ["select", "annotations", "path"] {
+            assert_eq!(wrong(&format!("{{\"{key}\": {{}}}}")), "clipboard: the view has no camera");
+        }
+        assert_eq!(wrong(r#"{"bookmarks": []}"#), "clipboard: the view has no camera");
         assert_eq!(
             wrong(r#"{"eye": [0, 0, 5], "target": [0, 0, 5]}"#),
             "clipboard: camera.target: is the same point as camera.eye"
