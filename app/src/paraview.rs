@@ -68,7 +68,7 @@ fn parse(text: &str) -> anyhow::Result<Imported> {
         })
         .collect();
     let opacities = numbers(map, "Points", 4)?.map(|points| {
-        let points = opacities(points.as_chunks().0);
+        let points = within(&opacities(points.as_chunks().0), ends);
         points.into_iter().map(|(x, opacity)| (u(x), opacity.clamp(0.0, 1.0) as f32)).collect()
     });
     Ok((MapView { points: map_points, ..MapView::default() }, opacities))
@@ -186,6 +186,23 @@ fn opacities(points: &[[f64; 4]]) -> Vec<(f64, f64)> {
     all
 }
 
+/// The part of a curve over x from `low` to `high`, to whose ends it is interpolated.
+fn within(points: &[(f64, f64)], [low, high]: [f64; 2]) -> Vec<(f64, f64)> {
+    let at = |x: f64| {
+        let next = points.partition_point(|point| point.0 < x);
+        match (next.checked_sub(1).map(|before| points[before]), points.get(next)) {
+            (Some((x0, y0)), Some((x1, y1))) => y0 + (x - x0) / (x1 - x0) * (y1 - y0),
+            (Some((_, y)), None) => y,
+            (None, after) => after.map_or(0.0, |after| after.1),
+        }
+    };
+    let inside = points.iter().filter(|point| (low..=high).contains(&point.0)).copied();
+    let is_at = |x: f64| points.iter().any(|point| point.0 == x);
+    let first = (points[0].0 < low && !is_at(low)).then(|| (low, at(low)));
+    let last = (points[points.len() - 1].0 > high && !is_at(high)).then(|| (high, at(high)));
+    first.into_iter().chain(inside).chain(last).collect()
+}
+
 /// vtkPiecewiseFunction between two nodes.
 fn curve(y0: f64, y1: f64, share: f64, middle: f64, sharpness: f64) -> f64 {
     let middle = middle.clamp(1e-5, 1.0 - 1e-5);
@@ -274,6 +291,24 @@ mod tests {
         let middle = colours.iter().find(|point| point.u == 0.5).unwrap();
         assert!((middle.rgb[0] - 0.214_041).abs() < 1e-5, "{middle:?}");
         assert_eq!(opacities.unwrap(), [(0.0, 0.0), (0.5, 0.4), (1.0, 1.0)]);
+    }
+
+    #[test]
+    fn opacities_are_cut_where_the_colours_end() {
+        let of = |points: &str| {
+            let text = format!(r#"{{"RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1], "Points": [{points}]}}"#);
+            parse(&text).unwrap().1.unwrap()
+        };
+        assert_eq!(of("-99, 0, 0.5, 0, 1, 1, 0.5, 0"), [(0.0, 0.99), (1.0, 1.0)]);
+        assert_eq!(
+            of("-1, 0, 0.5, 0, 0.5, 0.75, 0.5, 0, 2, 0, 0.5, 0"),
+            [(0.0, 0.5), (0.5, 0.75), (1.0, 0.5)]
+        );
+        // A step at an end stays one, and what lies beyond goes on as it ends.
+        let step = of("-1, 1, 0.5, 0, 0, 1, 0.5, 0, 0, 0, 0.5, 0, 1, 1, 0.5, 0");
+        assert_eq!(step, [(0.0, 1.0), (0.0, 0.0), (1.0, 1.0)]);
+        assert_eq!(of("-3, 0.25, 0.5, 0, -2, 0.5, 0.5, 0"), [(0.0, 0.5)]);
+        assert_eq!(of("2, 0.25, 0.5, 0, 3, 0.5, 0.5, 0"), [(1.0, 0.25)]);
     }
 
     #[test]
