@@ -9,7 +9,7 @@ use std::path::Path;
 
 use crate::io_error::describe;
 use anyhow::{Context, anyhow, bail};
-use image::{ImageFormat, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
 /// Premultiplied linear RGBA, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +78,10 @@ impl<'a> Rows<'a> {
 
 /// Rows that come together.
 pub const ROWS: u32 = 16;
+
+/// Bytes of pixels that a byte of a file can stand for: deflate reaches 1032, and an EXR of half floats is
+/// taken for one of twice their size.
+const DENSEST: f64 = 2100.0;
 
 /// Takes rows on their way to a file.
 pub type Sink<'a> = dyn FnMut(Rows) -> anyhow::Result<()> + 'a;
@@ -154,6 +158,7 @@ pub fn record(path: &Path) -> Option<String> {
 pub fn read(path: &Path) -> anyhow::Result<Pixels> {
     let name = || path.display().to_string();
     let bytes = std::fs::read(path).map_err(|error| anyhow!(describe(&error))).with_context(name)?;
+    let size = bytes.len();
     // The content tells the format, whatever the name says.
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().with_context(name)?;
     // Pictures may be larger than what the library takes for one.
@@ -163,8 +168,13 @@ pub fn read(path: &Path) -> anyhow::Result<Pixels> {
         Some(ImageFormat::Png) => false,
         _ => bail!("{}: is neither a PNG nor an EXR picture", path.display()),
     };
-    let image = reader.decode().with_context(name)?.into_rgba32f();
-    let (width, height) = image.dimensions();
+    let decoder = reader.into_decoder().with_context(name)?;
+    let (width, height) = decoder.dimensions();
+    let bits = f64::from(decoder.original_color_type().bits_per_pixel());
+    if f64::from(width) * f64::from(height) * bits / 8.0 > DENSEST * size as f64 {
+        bail!("{}: claims {width} × {height} pixels in {size} bytes", path.display());
+    }
+    let image = DynamicImage::from_decoder(decoder).with_context(name)?.into_rgba32f();
     let straight = |[r, g, b, a]: [f32; 4]| {
         let [r, g, b] = [r, g, b].map(|c| to_linear(c) * a);
         [r, g, b, a]
@@ -196,6 +206,8 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut File) -> anyhow::Result<(
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let mut file = builder.tempfile_in(folder)?;
         write(file.as_file_mut())?;
+        // Only then is a name that is there after a crash that of a whole file.
+        file.as_file().sync_all()?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
     };
@@ -243,6 +255,35 @@ mod tests {
     fn largest_difference(a: &Pixels, b: &Pixels) -> f32 {
         let pairs = a.data.as_flattened().iter().zip(b.data.as_flattened());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_picture_that_claims_more_than_its_file_can_hold_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        write(&path, &gradient(), None).unwrap();
+        let mut bytes = std::fs::read(&path).unwrap();
+        // Width and height, and the checksum of the first chunk.
+        bytes[16..20].copy_from_slice(&60_000_u32.to_be_bytes());
+        bytes[20..24].copy_from_slice(&60_000_u32.to_be_bytes());
+        let checksum = crc32(&bytes[12..29]);
+        bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
+        std::fs::write(&path, &bytes).unwrap();
+        let told = format!("{:#}", read(&path).unwrap_err());
+        let expected = format!("a.png: claims 60000 × 60000 pixels in {} bytes", bytes.len());
+        assert!(told.ends_with(&expected), "{told}");
+        // The densest there is: one colour over and over.
+        let even = Pixels { width: 3000, height: 3000, data: vec![[0.0; 4]; 9_000_000] };
+        for name in ["even.png", "even.exr"] {
+            write(&folder.path().join(name), &even, None).unwrap();
+            assert_eq!(read(&folder.path().join(name)).unwrap(), even);
+        }
+    }
+
+    /// The checksum of PNG.
+    fn crc32(bytes: &[u8]) -> u32 {
+        let step = |crc: u32, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
+        !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
     }
 
     #[test]
