@@ -28,8 +28,10 @@ pub struct Messages {
 const NOTE: Duration = Duration::from_secs(6);
 /// A warning stays longer: it is worth reading, but nothing failed.
 const WARNING: Duration = Duration::from_secs(20);
-/// More than this do not fit beside a picture; the oldest give way.
-const MOST: usize = 6;
+/// More than this do not fit beside a picture: the oldest that is no error gives way.
+pub const MOST: usize = 6;
+/// So many errors are remembered until they are dismissed.
+const MOST_ERRORS: usize = 1000;
 
 impl Messages {
     pub fn note(&mut self, text: impl Into<String>) {
@@ -50,10 +52,14 @@ impl Messages {
             (known.times, known.said) = (known.times + 1, said);
             return;
         }
-        self.list.push(Message { severity, text, times: 1, said });
-        if self.list.len() > MOST {
-            self.list.remove(0);
+        if self.list.len() >= MOST {
+            let fades = self.list.iter().position(|message| message.severity != Severity::Error);
+            // Whatever fails again and again in other words must not fill the memory.
+            if let Some(oldest) = fades.or((self.list.len() >= MOST_ERRORS).then_some(0)) {
+                self.list.remove(oldest);
+            }
         }
+        self.list.push(Message { severity, text, times: 1, said });
     }
 
     pub fn dismiss(&mut self, index: usize) {
@@ -103,5 +109,21 @@ mod tests {
         messages.dismiss(0);
         messages.dismiss(7);
         assert!(messages.list().is_empty() && messages.due().is_none());
+    }
+
+    #[test]
+    fn errors_give_way_to_nothing() {
+        let mut messages = Messages::default();
+        messages.error("frame 4 is cut short");
+        (0..20).for_each(|frame| messages.warn(format!("frame {frame} has holes")));
+        let texts: Vec<&str> = messages.list().iter().map(|message| message.text.as_str()).collect();
+        assert_eq!(texts.len(), MOST);
+        assert_eq!((texts[0], texts[1]), ("frame 4 is cut short", "frame 15 has holes"));
+        (0..20).for_each(|frame| messages.error(format!("frame {frame} is lost")));
+        messages.note("saved");
+        messages.note("saved again");
+        assert_eq!(messages.list().len(), 22, "all errors, and the latest note");
+        (0..2000).for_each(|frame| messages.error(format!("frame {frame} is gone")));
+        assert_eq!(messages.list().len(), MOST_ERRORS);
     }
 }

@@ -3,7 +3,7 @@
 use egui::{Align, Frame, Layout, Margin, Rect, RichText, Stroke, Ui, UiBuilder, vec2};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::messages::{Message, Severity};
+use crate::viewer::messages::{MOST, Message, Severity};
 use crate::viewer::session::Session;
 use crate::viewer::theme;
 
@@ -17,10 +17,15 @@ pub fn show(ui: &mut Ui, session: &mut Session, picture: Rect) {
     let place = Rect::from_min_size(picture.min + vec2(12.0, 12.0), vec2(width, picture.height() - 24.0));
     let mut gone = None;
     ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-        for (index, message) in session.messages.list().iter().enumerate() {
+        let messages = session.messages.list();
+        let earlier = messages.len().saturating_sub(MOST);
+        for (index, message) in messages.iter().enumerate().skip(earlier) {
             if card(ui, message) {
                 gone = Some(index);
             }
+        }
+        if earlier > 0 {
+            ui.label(RichText::new(format!("and {earlier} earlier")).color(theme::colours().muted));
         }
     });
     if let Some(index) = gone {
