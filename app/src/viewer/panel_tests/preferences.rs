@@ -60,3 +60,23 @@ fn an_adapter_is_chosen_from_those_that_there_are() {
     harness.run();
     assert_eq!(harness.state().device_memory_mib, Some(1024));
 }
+
+#[test]
+fn a_memory_that_is_typed_counts_when_it_is_whole() {
+    let settings = Settings { device_memory_mib: Some(1024), ..Settings::default() };
+    let preferences = Preferences::default();
+    let mut harness = panel(settings, move |ui, settings| preferences.program(ui, settings));
+    let memory = |settings: &Settings| (settings.frame_cache_mib, settings.device_memory_mib);
+    for (label, whole) in [("Frame memory", (512, Some(1024))), ("Device memory", (512, Some(512)))] {
+        let before = memory(harness.state());
+        harness.get_by_label(label).focus();
+        harness.run();
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        harness.get_by_label(label).type_text("512");
+        harness.run();
+        assert_eq!(memory(harness.state()), before);
+        harness.key_press(Key::Enter);
+        harness.run();
+        assert_eq!(memory(harness.state()), whole);
+    }
+}

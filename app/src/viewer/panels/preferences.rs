@@ -30,7 +30,6 @@ impl Preferences {
     /// Shows the settings while they are open, and puts into force what is chosen.
     pub fn show(ui: &Ui, desk: &mut Desk) {
         let Some(preferences) = &mut desk.preferences else { return };
-        let before = desk.keeping.settings.clone();
         let frame = egui::Frame::window(ui.style()).inner_margin(20);
         let settings = &mut desk.keeping.settings;
         let response = egui::Modal::new(egui::Id::unique("settings")).frame(frame).show(ui.ctx(), |ui| {
@@ -52,7 +51,8 @@ impl Preferences {
         if response.inner || closing {
             desk.preferences = None;
         }
-        if desk.keeping.settings != before {
+        // A device takes a while to open: not at every step of a drag.
+        if desk.preferences.is_none() || !ui.input(|input| input.pointer.any_down()) {
             desk.apply_settings();
         }
     }
@@ -70,7 +70,7 @@ impl Preferences {
         widgets::row(ui, "Frame memory", |ui| {
             let range = Settings::FRAME_CACHE_MIB;
             let field = egui::DragValue::new(&mut settings.frame_cache_mib).range(range).suffix(" MiB");
-            ui.add(field.speed(16.0)).accessible_name("Frame memory").on_hover_text(
+            ui.add(field.speed(16.0).update_while_editing(false)).accessible_name("Frame memory").on_hover_text(
                 "Frames are read ahead and kept for playing and scrubbing, up to this many bytes beside the one \
                  in view",
             );
@@ -85,7 +85,7 @@ impl Preferences {
             }
             if let Some(mib) = &mut settings.device_memory_mib {
                 let field = egui::DragValue::new(mib).range(Settings::DEVICE_MEMORY_MIB).suffix(" MiB");
-                ui.add(field.speed(16.0)).accessible_name("Device memory");
+                ui.add(field.speed(16.0).update_while_editing(false)).accessible_name("Device memory");
             }
         });
         widgets::row(ui, "Text size", |ui| {
