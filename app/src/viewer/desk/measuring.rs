@@ -11,12 +11,18 @@ use crate::viewer::task::Outcome;
 impl Desk {
     /// Starts to measure the error of the picture in view.
     pub(super) fn measure_error(&mut self) {
-        let session = &self.session;
-        if let (Some((_, frame)), Some(tolerance)) = (session.frame(), session.view.sampling.tolerance) {
-            let (frame, view) = (Arc::clone(frame), session.drawn_view());
-            let wake = Wake::clone(&self.wake);
-            self.measurement = Some(Measurement::start(frame, &view, tolerance, self.gpu.clone(), wake));
-        }
+        let session = &mut self.session;
+        let Some(tolerance) = session.view.sampling.tolerance else {
+            session.messages.note("Full sampling has no error to measure: set a tolerance under Sampling");
+            return;
+        };
+        let Some((_, frame)) = session.frame() else {
+            session.messages.note("There is no picture to measure: open files first");
+            return;
+        };
+        let (frame, view) = (Arc::clone(frame), session.drawn_view());
+        let wake = Wake::clone(&self.wake);
+        self.measurement = Some(Measurement::start(frame, &view, tolerance, self.gpu.clone(), wake));
     }
 
     /// Takes in what was measured, and forgets it with the picture that it is about.
