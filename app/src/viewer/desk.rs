@@ -31,6 +31,7 @@ use super::widgets::Areas;
 use super::{Options, Wake};
 use crate::viewer::analysis::survey::Found;
 use crate::viewer::inspect::measurement::Measurement;
+use crate::viewer::keys::escape::Escape;
 use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::picture::picture_view::PictureView;
 
@@ -77,6 +78,9 @@ pub struct Desk {
     done: (mpsc::Sender<Dated>, mpsc::Receiver<Dated>),
     counting: bool,
     finding: bool,
+    /// Number of searches for frames so far: the latest one counts.
+    searches: usize,
+    escape: Escape,
     inquiries: looking::Inquiries,
     /// Which device the command line asks for, and which one is asked for in the end.
     given_gpu: GpuOptions,
@@ -118,6 +122,8 @@ impl Desk {
             done: mpsc::channel(),
             counting: false,
             finding: false,
+            searches: 0,
+            escape: Escape::default(),
             inquiries: looking::Inquiries::default(),
             given_gpu: options.gpu,
             gpu,
@@ -150,6 +156,7 @@ impl Desk {
         super::theme::choose(ui.ctx(), self.keeping.settings.appearance);
         // These take keys for themselves.
         let takes_keys = self.palette.is_some() || self.preferences.is_some();
+        let escaped = !takes_keys && !self.help && self.escape.pressed(ui.ctx());
         let mut actions =
             if takes_keys { Vec::new() } else { crate::viewer::keys::shortcuts::pressed(ui.ctx()) };
         let room = super::layout::show(ui, self, &mut actions);
@@ -160,7 +167,7 @@ impl Desk {
         if self.session.view != before && ui.input(|input| input.pointer.any_down()) {
             self.session.touch(now);
         }
-        let held = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
+        let held = ui.input(|input| input.pointer.any_down()) || ui.ctx().text_edit_focused();
         self.session.remember(now, held);
         self.session.poll(now);
         if let Some(job) = self.session.job(now, room) {
@@ -170,7 +177,10 @@ impl Desk {
         self.follow_survey();
         self.follow_presets(window);
         self.follow_export(window);
-        self.escape(ui.ctx());
+        if escaped {
+            // Closes what a tool has opened, and then puts the tool away.
+            self.session.put_away();
+        }
         self.count();
         self.look_closer();
         // Of the same moment as the job: one that is drawn for a moving picture is followed by another.
@@ -180,6 +190,7 @@ impl Desk {
             self.keeping.settings.budget = self.session.budget;
         }
         self.keep(now);
+        self.escape.remember(ui.ctx());
         self.tell(ui.ctx());
     }
 
@@ -273,16 +284,6 @@ impl Desk {
     fn open_preferences(&mut self) {
         self.preferences = Some(Preferences::default());
         self.work(|| Done::Adapters(renderer::Gpu::adapters()));
-    }
-
-    /// Closes what a tool has opened, and then puts the tool away.
-    fn escape(&mut self, context: &egui::Context) {
-        let covered = self.help || self.palette.is_some() || self.preferences.is_some();
-        let elsewhere = covered || egui::Popup::is_any_open(context) || context.egui_wants_keyboard_input();
-        if elsewhere || !context.input(|input| input.key_pressed(egui::Key::Escape)) {
-            return;
-        }
-        self.session.put_away();
     }
 
     /// Asks for the picture again, after the window's device was lost with all textures.

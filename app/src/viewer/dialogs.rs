@@ -100,8 +100,9 @@ impl Dialogs {
             }
             Purpose::SavePicture => {
                 let dialog = dialog.set_title("Save the picture").set_file_name(name);
-                let dialog = dialog.add_filter("PNG, 8 bits, sRGB", &["png"]);
-                let file = dialog.add_filter("OpenEXR, 32 bits, linear", &["exr"]).save_file();
+                // Nobody tells which of two filters was chosen: the name's ending says what is written.
+                let kinds = "Picture: .png (8 bits, sRGB) or .exr (32 bits, linear)";
+                let file = dialog.add_filter(kinds, &["png", "exr"]).save_file();
                 Box::pin(async move { one(file.await) })
             }
         };

@@ -1,26 +1,37 @@
 //! Opening runs and views, saving views and pictures.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use super::{Desk, Done, Opening};
 use crate::frames::Sequence;
 use crate::viewer::dialogs::Purpose;
 use crate::viewer::exports::Plan;
-use crate::viewer::kept::LastSession;
+use crate::viewer::kept::Left;
 use crate::viewer::run::{self, Run};
 use crate::{image_file, view_file};
 
 impl Desk {
     pub(super) fn chosen(&mut self, purpose: Purpose, paths: Vec<PathBuf>) {
         let Some(first) = paths.first().cloned() else { return };
+        let endings: &[&str] = match purpose {
+            Purpose::ExportColours | Purpose::SaveView => &["json"],
+            Purpose::SavePicture => &["png", "exr"],
+            _ => &[],
+        };
+        let named = if endings.is_empty() { Ok(first) } else { with_ending(first, endings) };
+        let first = match named {
+            Ok(first) => first,
+            Err(text) => return self.session.complain(text),
+        };
         match purpose {
             Purpose::OpenFiles | Purpose::OpenFolder => self.find(paths),
             Purpose::LoadView => self.load_view(first),
             Purpose::ImportColours => self.import_colours(first),
-            Purpose::ExportColours => self.export_colours(with_ending(first, &["json"])),
-            Purpose::SaveView => self.save_view(with_ending(first, &["json"])),
+            Purpose::ExportColours => self.export_colours(first),
+            Purpose::SaveView => self.save_view(first),
             Purpose::ExportFolder => self.exporting.folder_chosen(&first),
-            Purpose::SavePicture => self.save_picture(with_ending(first, &["png", "exr"])),
+            Purpose::SavePicture => self.save_picture(first),
         }
     }
 
@@ -41,12 +52,14 @@ impl Desk {
         self.find_for(paths, None);
     }
 
-    /// The same, for a run that is to look as it did in `session`.
-    pub(super) fn find_for(&mut self, paths: Vec<PathBuf>, session: Option<Box<LastSession>>) {
+    /// The same, for a run that is to look as it did when it was left behind.
+    pub(super) fn find_for(&mut self, paths: Vec<PathBuf>, left: Option<Box<Left>>) {
         self.finding = true;
+        self.searches += 1;
+        let search = self.searches;
         self.work(move || {
             let found = run::find(&paths);
-            Done::Found(Opening { paths, session }, found)
+            Done::Found(Opening { search, paths, left }, found)
         });
     }
 
@@ -87,18 +100,16 @@ impl Desk {
     /// Saves picture and view in the working directory, under names that are free.
     pub(super) fn quick_save(&mut self) {
         let stem = self.file_stem();
-        let names = (1..).map(|number| match number {
-            1 => stem.clone(),
-            number => format!("{stem}-{number}"),
-        });
         let queue = &self.exporting.queue;
-        let free = |name: &String| {
-            let path = PathBuf::from(format!("{name}.png"));
-            !path.exists() && !queue.will_write(&path)
-        };
-        if let Some(name) = names.take(10_000).find(free) {
-            self.save_view(format!("{name}.json").into());
-            self.save_picture(format!("{name}.png").into());
+        match free_name(&stem, |path| path.exists() || queue.will_write(path)) {
+            Some(name) => {
+                self.save_view(format!("{name}.json").into());
+                self.save_picture(format!("{name}.png").into());
+            }
+            None => self.session.complain(format!(
+                "{stem}.png: so is every name up to {stem}-{MOST_NAMES}.png taken; move some of them, or save \
+                 with File, Save"
+            )),
         }
     }
 
@@ -108,14 +119,59 @@ impl Desk {
     }
 }
 
+/// Names that are tried for a picture.
+const MOST_NAMES: usize = 10_000;
+
+/// A name, made of `stem`, under which neither a picture nor a view is `taken`.
+fn free_name(stem: &str, taken: impl Fn(&Path) -> bool) -> Option<String> {
+    let names = (1..=MOST_NAMES).map(|number| match number {
+        1 => stem.to_owned(),
+        number => format!("{stem}-{number}"),
+    });
+    let free = |name: &String| [".png", ".json"].iter().all(|end| !taken(Path::new(&format!("{name}{end}"))));
+    names.into_iter().find(free)
+}
+
 /// A file name that ends in one of `endings`, the first unless it has another of them.
-fn with_ending(path: PathBuf, endings: &[&str]) -> PathBuf {
-    let fits = |ending: &std::ffi::OsStr| endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
+///
+/// # Errors
+/// A name that is another file's with its ending: nobody was asked whether that may be replaced.
+fn with_ending(path: PathBuf, endings: &[&str]) -> Result<PathBuf, String> {
+    let fits = |ending: &OsStr| endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
     if path.extension().is_some_and(fits) {
-        return path;
+        return Ok(path);
     }
     let mut name = path.into_os_string();
     name.push(".");
     name.push(endings[0]);
-    name.into()
+    let path = PathBuf::from(name);
+    match path.exists() {
+        true => Err(format!("{}: exists already: save with its whole name to replace it", path.display())),
+        false => Ok(path),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_free_for_picture_and_view() {
+        let taken = ["a.png", "a-2.json", "a-4.png"];
+        let free = |stem: &str| free_name(stem, |path| taken.iter().any(|name| path == Path::new(name)));
+        assert_eq!((free("a").as_deref(), free("b").as_deref()), (Some("a-3"), Some("b")));
+        assert_eq!(free_name("a", |_| true), None);
+    }
+
+    #[test]
+    fn an_ending_that_is_added_replaces_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("a.png"), "").unwrap();
+        let endings = ["png", "exr"];
+        assert_eq!(with_ending(path("b"), &endings), Ok(path("b.png")));
+        assert_eq!(with_ending(path("b.EXR"), &endings), Ok(path("b.EXR")));
+        assert_eq!(with_ending(path("a.png"), &endings), Ok(path("a.png")), "the dialog has asked");
+        assert!(with_ending(path("a"), &endings).unwrap_err().contains("a.png: exists already"));
+    }
 }

@@ -97,8 +97,8 @@ impl Desk {
 
     /// Opens again what was left behind as `index`.
     pub(in crate::viewer) fn restore(&mut self, index: usize) {
-        let last = self.keeping.sessions.take_over(index);
-        self.find_for(last.paths.clone(), Some(Box::new(last)));
+        let left = self.keeping.sessions.left[index].clone();
+        self.find_for(left.session.paths.clone(), Some(Box::new(left)));
     }
 
     /// Writes what has changed since it was last written; the session, no more often than it must be.

@@ -1,5 +1,6 @@
 //! What threads and dialogs have to tell.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
 use renderer::View;
@@ -15,7 +16,7 @@ use crate::viewer::analysis::statistics::Answer;
 use crate::viewer::dialogs;
 use crate::viewer::inspect::pointing::Pointed;
 use crate::viewer::inspect::tracked::Located;
-use crate::viewer::kept::LastSession;
+use crate::viewer::kept::Left;
 use crate::viewer::render_thread::Report;
 
 /// What was done on another thread.
@@ -33,6 +34,8 @@ pub(super) enum Done {
     Kept(&'static str, anyhow::Result<()>),
     Adapters(Vec<String>),
     VideosPossible(bool),
+    /// A panic.
+    Broken,
 }
 
 impl Done {
@@ -59,9 +62,11 @@ pub(super) type Dated = (usize, Done);
 
 /// A run that is looked for.
 pub(super) struct Opening {
+    /// Number of the search.
+    pub search: usize,
     pub paths: Vec<PathBuf>,
     /// How it is to look; as its first frame does without any.
-    pub session: Option<Box<LastSession>>,
+    pub left: Option<Box<Left>>,
 }
 
 impl Desk {
@@ -78,11 +83,14 @@ impl Desk {
         while let Ok((numbering, mut done)) = self.done.1.try_recv() {
             done.renumber(|index| self.session.moved_since(numbering, index));
             match done {
+                // Something else was opened since.
+                Done::Found(opening, _) if opening.search != self.searches => {}
                 Done::Found(opening, Ok(sequence)) => {
                     self.finding = false;
                     self.open(&sequence, &opening.paths);
-                    if let Some(last) = opening.session {
-                        self.session.restore(*last);
+                    if let Some(left) = opening.left {
+                        self.keeping.sessions.take_over(&left);
+                        self.session.restore(left.session);
                     }
                 }
                 Done::Found(_, Err(text)) => {
@@ -115,6 +123,14 @@ impl Desk {
                         preferences.adapters = Some(names);
                     }
                 }
+                Done::Broken => {
+                    // Only a search can be begun again: what is counted would fail in the same way.
+                    self.finding = false;
+                    self.session.complain(
+                        "Something failed in the background in an unforeseen way: save the view and restart \
+                         the program if anything does not go on",
+                    );
+                }
                 Done::Pointed(pointed) => self.take_pointed(*pointed),
                 Done::Located(located) => self.take_located(&located),
                 Done::Statistics(answer) => self.take_statistics(*answer),
@@ -139,8 +155,23 @@ impl Desk {
         let numbering = self.session.numbering();
         std::thread::spawn(move || {
             // The window is gone when nobody listens.
-            let _ = sender.send((numbering, task()));
+            let _ = sender.send((numbering, caught(task)));
             wake();
         });
+    }
+}
+
+/// Does `task`, whatever happens in it: the window waits for an answer.
+fn caught(task: impl FnOnce() -> Done) -> Done {
+    catch_unwind(AssertUnwindSafe(task)).unwrap_or(Done::Broken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_answer() {
+        assert!(matches!(caught(|| panic!("on purpose")), Done::Broken));
     }
 }

@@ -25,6 +25,7 @@ pub struct Sessions {
 }
 
 /// A session whose window is gone.
+#[derive(Clone)]
 pub struct Left {
     pub session: LastSession,
     file: PathBuf,
@@ -61,11 +62,10 @@ impl Sessions {
         self.own.as_ref().map(|own| own.file.clone())
     }
 
-    /// Takes one of those that were left behind over.
-    pub fn take_over(&mut self, index: usize) -> LastSession {
-        let Left { session, file } = self.left.remove(index);
-        self.taken_over = Some((file, session.paths.clone()));
-        session
+    /// Goes on with one of those that were left behind, once its run is open.
+    pub fn take_over(&mut self, gone_on: &Left) {
+        self.left.retain(|left| left.file != gone_on.file);
+        self.taken_over = Some((gone_on.file.clone(), gone_on.session.paths.clone()));
     }
 
     /// Says that what is `open` is in the file of this window. A session of that which was taken over is deleted.
@@ -211,7 +211,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         save(&open(folder.path()), &session("crashed", 1, false));
         let mut next = open(folder.path());
-        assert_eq!(next.take_over(0).title, "crashed");
+        let left = next.left[0].clone();
+        assert_eq!((titles(&next), left.session.title.as_str()), (vec!["crashed"], "crashed"));
+        next.take_over(&left);
+        assert!(next.left.is_empty());
         assert_eq!(titles(&open(folder.path())), ["crashed"]);
         save(&next, &session("goes on", 2, false));
         next.saved(&["another".into()]);

@@ -1,4 +1,5 @@
 //! What the keyboard does: the actions, and which keys call them.
 
+pub mod escape;
 pub mod keymap;
 pub mod shortcuts;

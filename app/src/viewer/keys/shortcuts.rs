@@ -160,13 +160,27 @@ pub const GESTURES: [(&str, &str); 12] = [
     ("Shift", "Flying or walking: faster"),
 ];
 
-/// Takes the actions out of the keyboard input.
+/// Keys that act on the button or slider that has the focus, or move it on.
+const OF_WIDGETS: [Key; 8] = [
+    Key::Space,
+    Key::Enter,
+    Key::Tab,
+    Key::Escape,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::ArrowLeft,
+    Key::ArrowRight,
+];
+
+/// Takes the actions out of the keyboard input; none while a text is written.
 pub fn pressed(context: &egui::Context) -> Vec<Action> {
-    if context.egui_wants_keyboard_input() {
+    if context.text_edit_focused() {
         return Vec::new();
     }
+    let focused = context.egui_wants_keyboard_input();
     let bindings = Keymap::of(context).bindings();
     let called = |event: &egui::Event| match event {
+        egui::Event::Key { key, pressed: true, .. } if focused && OF_WIDGETS.contains(key) => None,
         egui::Event::Key { key, modifiers, pressed: true, .. } => bindings
             .iter()
             .find(|(keys, _)| keys.logical_key == *key && modifiers.matches_logically(keys.modifiers)),

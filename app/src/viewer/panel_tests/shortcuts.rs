@@ -1,5 +1,7 @@
 use egui::{Event, Key, Modifiers, RawInput};
+use egui_kittest::kittest::Queryable;
 
+use super::panel;
 use crate::viewer::keys::shortcuts::{Action, pressed};
 
 fn key(key: Key, modifiers: Modifiers) -> Event {
@@ -18,4 +20,27 @@ fn keys_of_one_frame_act_in_their_order() {
     });
     output.textures_delta.clear();
     assert_eq!(actions, [Action::Bookmark, Action::QuickSave, Action::StepForward]);
+}
+
+/// What Ctrl+K, Space and the right arrow call while the widget of this label has the focus.
+fn with_focus(label: &str) -> Vec<Action> {
+    let state = (Vec::new(), String::new());
+    let mut harness = panel(state, |ui, (actions, text)| {
+        actions.extend(pressed(ui.ctx()));
+        let _ = ui.button("Button");
+        let _ = ui.text_edit_singleline(text).accessible_name("Text");
+    });
+    harness.get_by_label(label).focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    harness.key_press(Key::Space);
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    harness.state().0.clone()
+}
+
+#[test]
+fn a_button_with_the_focus_keeps_only_its_own_keys() {
+    assert_eq!(with_focus("Button"), [Action::Palette]);
+    assert_eq!(with_focus("Text"), []);
 }

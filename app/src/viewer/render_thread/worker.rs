@@ -24,6 +24,8 @@ use crate::viewer::render_thread::prepare::{Facts, Preparation};
 /// Milliseconds that a picture may take while something moves: on a GPU, and on the CPU, where
 /// half the speed is worth twice the pixels.
 const BUDGETS: [f64; 2] = [50.0, 100.0];
+/// What is told of a panic.
+const UNFORESEEN: &str = "drawing failed in an unforeseen way: change the view to try again";
 /// A moving picture that takes this many times its budget gives way to a newer one.
 const PATIENCE: f64 = 8.0;
 
@@ -111,7 +113,11 @@ impl Worker {
             self.report(Report::Failed { index: 0, text });
         }
         while let Some(job) = self.slot.next() {
-            let result = self.serve(&job);
+            let result = catch_unwind(AssertUnwindSafe(|| self.serve(&job))).unwrap_or_else(|_| {
+                // Whatever state they are in, the next picture gets new ones.
+                (self.renderer, self.preparation, self.last) = (None, Preparation::default(), None);
+                Err(Stop::Failed(UNFORESEEN.into()))
+            });
             self.slot.share.store(IDLE, Ordering::Relaxed);
             if let Err(Stop::Failed(text)) = result {
                 self.report(Report::Failed { index: job.index, text });
@@ -335,8 +341,7 @@ impl Worker {
                 Err(_) => {
                     // Whatever state the renderer is in, the next picture gets a new one.
                     self.renderer = None;
-                    let text = "drawing failed in an unforeseen way: change the view to try again";
-                    return Err(Stop::Failed(text.into()));
+                    return Err(Stop::Failed(UNFORESEEN.into()));
                 }
             }
         }
