@@ -31,6 +31,7 @@ use super::widgets::Areas;
 use super::{Options, Wake};
 use crate::viewer::analysis::survey::Found;
 use crate::viewer::inspect::measurement::Measurement;
+use crate::viewer::kept::Writer;
 use crate::viewer::keys::escape::Escape;
 use crate::viewer::keys::shortcuts::Action;
 use crate::viewer::picture::picture_view::PictureView;
@@ -95,7 +96,8 @@ impl Desk {
     pub fn new(options: Options, wake: Wake) -> Desk {
         let mut session = Session::new(options.view);
         session.fits_window = !options.fixed_size;
-        let (keeping, troubles) = Keeping::read();
+        let done = mpsc::channel();
+        let (keeping, troubles) = Keeping::read(writer(mpsc::Sender::clone(&done.0), &wake));
         session.budget = keeping.settings.budget.sound();
         let gpu = keeping.settings.gpu(&options.gpu);
         let crashed = keeping.sessions.left.iter().any(|left| !left.session.ended);
@@ -119,7 +121,7 @@ impl Desk {
             orders: Vec::new(),
             due: None,
             dialogs: Dialogs::new(Wake::clone(&wake)),
-            done: mpsc::channel(),
+            done,
             counting: false,
             finding: false,
             searches: 0,
@@ -302,4 +304,14 @@ impl Desk {
             _ => None,
         }
     }
+}
+
+/// What writes settings and the like, and tells how that went.
+fn writer(sender: mpsc::Sender<Dated>, wake: &Wake) -> Writer {
+    let wake = Wake::clone(wake);
+    Writer::new(move |file, result| {
+        // No frame's number is in it, and the window is gone when nobody listens.
+        let _ = sender.send((0, Done::Kept(file, result)));
+        wake();
+    })
 }

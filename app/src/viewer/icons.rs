@@ -24,19 +24,29 @@ pub const WIDTH: f32 = theme::ROW_HEIGHT + 4.0;
 
 /// A square button with a sign on it.
 pub fn button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool) -> Response {
+    hinted_button(ui, icon, name, name, enabled)
+}
+
+/// The same with another tooltip than its name.
+pub fn hinted_button(ui: &mut Ui, icon: Icon, name: &str, hint: &str, enabled: bool) -> Response {
     ui.add_enabled_ui(enabled, |ui| {
         let response = sign(ui, icon, false);
         accessible::button(ui, &response, name);
-        response.on_hover_text(name)
+        response.on_hover_text(hint)
     })
     .inner
 }
 
 /// A square switch with a sign on it.
 pub fn switch(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
+    hinted_switch(ui, icon, name, name, on)
+}
+
+/// The same with another tooltip than its name.
+pub fn hinted_switch(ui: &mut Ui, icon: Icon, name: &str, hint: &str, on: bool) -> Response {
     let response = sign(ui, icon, on);
     accessible::switch(ui, &response, name, on);
-    response.on_hover_text(name)
+    response.on_hover_text(hint)
 }
 
 fn sign(ui: &mut Ui, icon: Icon, on: bool) -> Response {

@@ -107,8 +107,8 @@ impl Desk {
                 self.save_picture(format!("{name}.png").into());
             }
             None => self.session.complain(format!(
-                "{stem}.png: so is every name up to {stem}-{MOST_NAMES}.png taken; move some of them, or save \
-                 with File, Save"
+                "{stem}.png: so is every name up to {stem}-{MOST_NAMES}.png taken; move some of them, or choose \
+                 a name with Save picture"
             )),
         }
     }

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::{Desk, Done};
+use super::Desk;
 use crate::viewer::Wake;
-use crate::viewer::kept::{self, Kept, LastSession, Recent, RecentRuns, Sessions, Settings};
+use crate::viewer::kept::{self, Kept, LastSession, Recent, RecentRuns, Sessions, Settings, Writer};
 use crate::viewer::render_thread::RenderThread;
 
 /// What a session that was written is called.
@@ -14,6 +14,8 @@ const SESSION: &str = "session";
 const PAUSE: Duration = Duration::from_secs(2);
 
 pub struct Keeping {
+    /// Ends before the lock of the session is given back.
+    writer: Writer,
     pub settings: Settings,
     pub recent: RecentRuns,
     /// What was open before the program was started, and what is.
@@ -24,7 +26,7 @@ pub struct Keeping {
     paths: Vec<PathBuf>,
     /// What the files hold.
     written: (Settings, Option<LastSession>),
-    /// Whether something is being written.
+    /// Whether the session is being written.
     writing: bool,
     /// When the session may be written next.
     next: Instant,
@@ -32,7 +34,7 @@ pub struct Keeping {
 
 impl Keeping {
     /// Reads what was kept. Also returns what is wrong with it.
-    pub fn read() -> (Keeping, Vec<String>) {
+    pub fn read(writer: Writer) -> (Keeping, Vec<String>) {
         let mut troubles = Vec::new();
         let settings = kept_or_default::<Settings>(&mut troubles);
         let recent = kept_or_default(&mut troubles);
@@ -41,7 +43,8 @@ impl Keeping {
         let written = (settings.clone(), None);
         let paths = Vec::new();
         let (scale, next) = (1.0, Instant::now());
-        let keeping = Keeping { settings, recent, sessions, scale, paths, written, writing: false, next };
+        let keeping =
+            Keeping { writer, settings, recent, sessions, scale, paths, written, writing: false, next };
         (keeping, troubles)
     }
 
@@ -55,6 +58,21 @@ impl Keeping {
             context.set_zoom_factor(self.settings.usable_scale());
         }
         self.scale = scale;
+    }
+
+    /// Changes the list of runs here and in its file.
+    fn change_recent(&mut self, change: impl Fn(&mut RecentRuns) + Send + 'static) {
+        change(&mut self.recent);
+        self.writer.change(RecentRuns::FILE, move || RecentRuns::change(change));
+    }
+
+    /// Writes the settings, if they have changed since they were last written.
+    fn keep_settings(&mut self) {
+        if self.settings != self.written.0 {
+            self.written.0 = self.settings.clone();
+            let settings = self.settings.clone();
+            self.writer.put(Settings::FILE, move || settings.write());
+        }
     }
 }
 
@@ -80,19 +98,14 @@ impl Desk {
         }
         let title = self.session.run().map_or_else(String::new, |run| run.title.clone());
         let frames = self.session.playback.count();
-        self.keeping.recent.add(Recent {
-            paths: self.keeping.paths.clone(),
-            title,
-            frames,
-            when: kept::now(),
-        });
-        self.write(self.keeping.recent.clone());
+        let run = Recent { paths: self.keeping.paths.clone(), title, frames, when: kept::now() };
+        self.keeping.change_recent(move |recent| recent.add(run.clone()));
     }
 
     /// Removes a run from the list of those that were open.
     pub(in crate::viewer) fn forget(&mut self, paths: &[PathBuf]) {
-        self.keeping.recent.remove(paths);
-        self.write(self.keeping.recent.clone());
+        let paths = paths.to_vec();
+        self.keeping.change_recent(move |recent| recent.remove(&paths));
     }
 
     /// Opens again what was left behind as `index`.
@@ -103,10 +116,7 @@ impl Desk {
 
     /// Writes what has changed since it was last written; the session, no more often than it must be.
     pub(super) fn keep(&mut self, now: Instant) {
-        if self.keeping.settings != self.keeping.written.0 {
-            self.keeping.written.0 = self.keeping.settings.clone();
-            self.write(self.keeping.settings.clone());
-        }
+        self.keeping.keep_settings();
         let (Some(session), Some(file)) = (self.to_be_kept(false), self.keeping.sessions.file()) else {
             return;
         };
@@ -121,16 +131,18 @@ impl Desk {
         self.keeping.next = now + PAUSE;
         self.keeping.written.1 = Some(session.clone());
         self.keeping.writing = true;
-        self.work(move || Done::Kept(SESSION, kept::write(&file, &session)));
+        self.keeping.writer.put(SESSION, move || kept::write(&file, &session));
     }
 
-    /// Ends exports, so that no half file is left, and writes the session for the last time. Nobody is left
-    /// to tell where this fails.
+    /// Ends exports, so that no half file is left, and writes settings and session for the last time. Nobody is
+    /// left to tell where this fails.
     pub fn close(&mut self) {
         self.exporting.queue.end();
+        self.keeping.keep_settings();
         if let (Some(session), Some(file)) = (self.to_be_kept(true), self.keeping.sessions.file()) {
-            let _ = kept::write(&file, &session);
+            self.keeping.writer.put(SESSION, move || kept::write(&file, &session));
         }
+        self.keeping.writer.end();
     }
 
     fn to_be_kept(&self, ended: bool) -> Option<LastSession> {
@@ -148,13 +160,8 @@ impl Desk {
         })
     }
 
-    fn write<T: Kept + Send + 'static>(&mut self, kept: T) {
-        self.keeping.writing = true;
-        self.work(move || Done::Kept(T::FILE, kept.write()));
-    }
-
     pub(super) fn written(&mut self, file: &str, result: anyhow::Result<()>) {
-        self.keeping.writing = false;
+        self.keeping.writing &= file != SESSION;
         match result {
             Ok(()) => {
                 if let (SESSION, Some(session)) = (file, &self.keeping.written.1) {

@@ -6,6 +6,7 @@ pub mod library;
 mod recent;
 mod sessions;
 mod settings;
+mod writer;
 
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -21,6 +22,7 @@ pub use last_session::LastSession;
 pub use recent::{Recent, RecentRuns};
 pub use sessions::{Left, Sessions};
 pub use settings::Settings;
+pub use writer::Writer;
 
 /// Something that is kept in a file.
 pub trait Kept: Serialize + DeserializeOwned {

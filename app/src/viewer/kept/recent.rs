@@ -1,10 +1,10 @@
 //! The runs that were open, latest first.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::Kept;
+use super::{Kept, read, write};
 use crate::places;
 
 /// A run that was open.
@@ -34,9 +34,26 @@ impl RecentRuns {
         self.runs.truncate(MOST);
     }
 
+    /// Changes the list in its file, to which other windows write, too.
+    ///
+    /// # Errors
+    /// Those of the file; the path comes first.
+    pub fn change(change: impl FnOnce(&mut RecentRuns)) -> anyhow::Result<()> {
+        match RecentRuns::folder() {
+            Some(folder) => change_in(&folder.join(RecentRuns::FILE), change),
+            None => Ok(()),
+        }
+    }
+
     pub fn remove(&mut self, paths: &[PathBuf]) {
         self.runs.retain(|known| known.paths != paths);
     }
+}
+
+fn change_in(path: &Path, change: impl FnOnce(&mut RecentRuns)) -> anyhow::Result<()> {
+    let mut recent = read::<RecentRuns>(path)?.unwrap_or_default();
+    change(&mut recent);
+    write(path, &recent)
 }
 
 impl Kept for RecentRuns {
@@ -65,5 +82,18 @@ mod tests {
         assert_eq!((recent.runs[0].title.as_str(), recent.runs[0].when), ("run 4", 19));
         let same = recent.runs.iter().filter(|run| run.title == "run 4").count();
         assert_eq!(same, 1);
+    }
+
+    #[test]
+    fn two_windows_write_one_list() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("recent.json");
+        for (when, name) in ["first", "second", "third"].into_iter().enumerate() {
+            change_in(&path, |recent| recent.add(run(name, when as u64))).unwrap();
+        }
+        change_in(&path, |recent| recent.remove(&["second".into()])).unwrap();
+        let recent = read::<RecentRuns>(&path).unwrap().unwrap();
+        let titles: Vec<&str> = recent.runs.iter().map(|run| run.title.as_str()).collect();
+        assert_eq!(titles, ["third", "first"]);
     }
 }

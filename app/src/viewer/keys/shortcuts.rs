@@ -207,9 +207,14 @@ pub fn meaning(action: Action) -> &'static str {
 
 /// What a tooltip says of an action: its meaning and its keys.
 pub fn hint(context: &egui::Context, action: Action) -> String {
+    with_keys(context, meaning(action), action)
+}
+
+/// A text, and the keys of an action after it.
+pub fn with_keys(context: &egui::Context, text: &str, action: Action) -> String {
     match keys(context, action) {
-        keys if keys.is_empty() => meaning(action).to_owned(),
-        keys => format!("{}  ({keys})", meaning(action)),
+        keys if keys.is_empty() => text.to_owned(),
+        keys => format!("{text}  ({keys})"),
     }
 }
 

@@ -1,8 +1,9 @@
-use egui::{Event, Key, Modifiers, RawInput};
+use egui::{Event, Key, KeyboardShortcut, Modifiers, RawInput};
 use egui_kittest::kittest::Queryable;
 
 use super::panel;
-use crate::viewer::keys::shortcuts::{Action, pressed};
+use crate::viewer::keys::keymap::Keymap;
+use crate::viewer::keys::shortcuts::{Action, pressed, with_keys};
 
 fn key(key: Key, modifiers: Modifiers) -> Event {
     Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
@@ -43,4 +44,19 @@ fn with_focus(label: &str) -> Vec<Action> {
 fn a_button_with_the_focus_keeps_only_its_own_keys() {
     assert_eq!(with_focus("Button"), [Action::Palette]);
     assert_eq!(with_focus("Text"), []);
+}
+
+#[test]
+fn tooltips_tell_the_keys_that_there_are() {
+    let context = egui::Context::default();
+    let play = || with_keys(&context, "Play", Action::PlayPause);
+    assert_eq!(play(), "Play  (Space)");
+    let mut keymap = Keymap::default();
+    keymap.assign(Action::PlayPause, KeyboardShortcut::new(Modifiers::NONE, Key::J));
+    keymap.clone().install(&context);
+    assert_eq!(play(), "Play  (J)");
+    keymap.clear(Action::PlayPause);
+    keymap.install(&context);
+    assert_eq!(play(), "Play");
+    assert_eq!(with_keys(&context, "Go", Action::GoTo(10)), "Go");
 }

@@ -18,11 +18,11 @@ fn three_frames() -> Harness<'static, State> {
 fn the_transport_buttons_call_their_actions() {
     let mut harness = three_frames();
     for (label, action) in [
-        ("First frame  (Ctrl+Left)", Action::First),
-        ("Previous frame  (Left)", Action::StepBack),
-        ("Play  (Space)", Action::PlayPause),
-        ("Next frame  (Right)", Action::StepForward),
-        ("Last frame  (Ctrl+Right)", Action::Last),
+        ("First frame", Action::First),
+        ("Previous frame", Action::StepBack),
+        ("Play", Action::PlayPause),
+        ("Next frame", Action::StepForward),
+        ("Last frame", Action::Last),
     ] {
         harness.get_by_label(label).click();
         harness.run();

@@ -3,7 +3,7 @@
 use egui::{RichText, TextEdit, Ui, vec2};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::keys::shortcuts::{Action, hint};
+use crate::viewer::keys::shortcuts::{Action, hint, with_keys};
 use crate::viewer::session::Session;
 use crate::viewer::{theme, widgets};
 
@@ -33,8 +33,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
             let name = &bookmark.name;
             ui.add_enabled_ui(ready, |ui| {
                 let go = widgets::wide_button(ui, "Go to", 54.0).accessible_name(format!("Go to {name}"));
-                let keys = if index < 9 { format!("  (Ctrl+{})", index + 1) } else { String::new() };
-                if go.on_hover_text(format!("Moves the camera there{keys}")).clicked() {
+                let number = u8::try_from(index + 1).unwrap_or(u8::MAX);
+                let hint = with_keys(ui.ctx(), "Moves the camera there", Action::GoTo(number));
+                if go.on_hover_text(hint).clicked() {
                     press = Some(Press::Go(index));
                 }
                 let update =

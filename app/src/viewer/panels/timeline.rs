@@ -4,7 +4,7 @@ use egui::{Align, Color32, Layout, Pos2, Rect, RichText, Sense, Stroke, Ui, pos2
 
 use crate::frames::Cached;
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::keys::shortcuts::Action;
+use crate::viewer::keys::shortcuts::{Action, with_keys};
 use crate::viewer::playback::Playback;
 use crate::viewer::session::Session;
 use crate::viewer::{accessible, theme, widgets};
@@ -31,17 +31,18 @@ pub fn show(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
 
 fn transport(ui: &mut Ui, session: &mut Session, actions: &mut Vec<Action>) {
     let playing = session.playback.playing();
-    let (sign, name) = if playing { (Icon::Pause, "Pause  (Space)") } else { (Icon::Play, "Play  (Space)") };
+    let (sign, name) = if playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
     for (icon, name, action) in [
-        (Icon::First, "First frame  (Ctrl+Left)", Action::First),
-        (Icon::StepBack, "Previous frame  (Left)", Action::StepBack),
+        (Icon::First, "First frame", Action::First),
+        (Icon::StepBack, "Previous frame", Action::StepBack),
         (sign, name, Action::PlayPause),
-        (Icon::StepForward, "Next frame  (Right)", Action::StepForward),
-        (Icon::Last, "Last frame  (Ctrl+Right)", Action::Last),
+        (Icon::StepForward, "Next frame", Action::StepForward),
+        (Icon::Last, "Last frame", Action::Last),
     ] {
+        let hint = with_keys(ui.ctx(), name, action);
         let pressed = match action {
-            Action::PlayPause => icons::switch(ui, icon, name, playing),
-            _ => icons::button(ui, icon, name, true),
+            Action::PlayPause => icons::hinted_switch(ui, icon, name, &hint, playing),
+            _ => icons::hinted_button(ui, icon, name, &hint, true),
         };
         if pressed.clicked() {
             actions.push(action);

@@ -3,7 +3,7 @@
 use egui::{Align, Button, Layout, Response, Ui};
 
 use crate::viewer::icons::{self, Icon};
-use crate::viewer::keys::shortcuts::{Action, hint, keys};
+use crate::viewer::keys::shortcuts::{Action, hint, keys, with_keys};
 use crate::viewer::orbit_camera::Side;
 use crate::viewer::session::{Session, Tool};
 use crate::viewer::theme;
@@ -60,8 +60,8 @@ fn steps(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
         (Icon::Redo, "Redo", Action::Redo, session.can_redo()),
     ];
     for (icon, name, action, possible) in buttons {
-        let name = format!("{name}  ({})", keys(ui.ctx(), action));
-        if icons::button(ui, icon, &name, possible).clicked() {
+        let hint = with_keys(ui.ctx(), name, action);
+        if icons::hinted_button(ui, icon, name, &hint, possible).clicked() {
             actions.push(action);
         }
     }
