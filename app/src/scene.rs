@@ -6,6 +6,7 @@
 //! `quantity`.
 
 mod choice;
+mod extremes;
 
 use std::fmt;
 
@@ -13,6 +14,7 @@ use renderer::{ParticleSet, Quantity, QuantityView, RawParticle, Rejected, Selec
 
 use crate::frames::{Column, Field, Frame, median_spacing, names};
 pub use choice::choice;
+pub use extremes::{extremes, is_shown, union};
 
 /// Why a frame and a view make no scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -9,7 +9,9 @@ use super::console::Console;
 use super::{DeviceArguments, SequenceArguments, ViewArguments, WrongArguments};
 use crate::camera_path::camera_at;
 use crate::export::video::{USUAL_RATE, Video, VideoFormat};
-use crate::export::{Layer, Listener, Order, Output, Overlay, Run, Shard, StatsFile, Summary, Target};
+use crate::export::{
+    Layer, Listener, Order, Output, Overlay, Run, Shard, StatsFile, Steady, Summary, Target,
+};
 use crate::image_file::Format;
 
 /// Render frames to picture files, without a window.
@@ -71,6 +73,10 @@ pub struct RenderArguments {
     /// Write N pictures of one frame, from around the turntable, in place of one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     turntable: Option<u16>,
+    /// Have the colours, and opacities, span the values of all frames given, not of each, where the view has no
+    /// range
+    #[arg(long)]
+    steady: bool,
     /// Leave pictures as they are that are there and made from this very view, frame and program
     #[arg(long)]
     resume: bool,
@@ -100,7 +106,8 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
         StatsFile::new(path, frames > 1, arguments.resume)
     });
     let (shard, resumes) = (arguments.shard, arguments.resume);
-    let order = Order { run, shard, view, target, overlay, layers, stats, view_file: None, resumes };
+    let steady = steady(&view, arguments.steady);
+    let order = Order { run, shard, view, steady, target, overlay, layers, stats, view_file: None, resumes };
     let result = order.carry_out(arguments.device.open()?, console.clone());
     console.clear();
     let Summary { frames, kept, failed } = result?;
@@ -110,6 +117,15 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     match failed.as_slice() {
         [] => Ok(()),
         [first, ..] => bail!("{first}: no picture: {} of {frames} frames failed", failed.len()),
+    }
+}
+
+/// Which ranges are to be those of all frames: those that the view leaves open, where that is wanted.
+fn steady(view: &View, wanted: bool) -> Steady {
+    let opacity = view.quantity.opacity.as_ref();
+    Steady {
+        colour: wanted && view.quantity.range.is_none(),
+        opacity: wanted && opacity.is_some_and(|opacity| opacity.range.is_none()),
     }
 }
 

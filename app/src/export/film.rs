@@ -10,7 +10,7 @@ use renderer::{
 };
 
 use super::listener::{INTERRUPTED, Listener, Stage};
-use super::survey::Survey;
+use super::survey::{Steady, Survey};
 use super::{Shard, one_line};
 use crate::camera_path;
 use crate::frames::{Frame, FrameSource, FrameStream, Sequence, Source, Timed};
@@ -73,6 +73,7 @@ pub struct Film {
     /// Places in the run of the frames that are worked on.
     part: Vec<usize>,
     view: View,
+    steady: Steady,
     /// One for each of the part; a frame that is repeated has but one.
     sources: Vec<Arc<Timed>>,
     /// Of the sources.
@@ -108,7 +109,12 @@ impl Film {
             part[..read].iter().map(|&place| Timed::new(run.source(place))).collect();
         let streamed = sources.iter().map(|source| Arc::clone(source) as Arc<dyn FrameSource>).collect();
         let stream = FrameStream::new(streamed, READ_AHEAD, || {});
-        Film { run, part, view, sources, stream, listener, quantity: None }
+        Film { run, part, view, steady: Steady::default(), sources, stream, listener, quantity: None }
+    }
+
+    /// The same, in ranges of all frames.
+    pub fn steady(self, steady: Steady) -> Film {
+        Film { steady, ..self }
     }
 
     /// Number of frames that are worked on.
@@ -199,25 +205,22 @@ impl Film {
     }
 
     /// Gives the view of several frames what must not change from one to the next, or the film would
-    /// flicker: a camera that has the whole run in view, and a reference length.
+    /// flicker: a camera that has the whole run in view, a reference length, and ranges that are to be steady.
     fn settle(&mut self) -> anyhow::Result<()> {
         if !self.is_sequence() || self.len() == 0 {
             return Ok(());
         }
         let camera = self.view.camera.is_some_and(|camera| camera.is_settled());
-        let settled = camera && self.view.transfer.reference_length.is_some();
+        let steady = self.steady != Steady::default();
+        let settled = camera && self.view.transfer.reference_length.is_some() && !steady;
         if !settled || self.view.quantity.name.is_none() {
             self.survey(settled)?;
         }
         if self.view.quantity.range.is_none() {
-            self.say(
-                "note: colours span the values of each frame; a view with quantity.range keeps them steady",
-            );
+            self.say("note: colours span the values of each frame; --steady keeps to those of all frames");
         }
         if self.view.quantity.opacity.as_ref().is_some_and(|opacity| opacity.range.is_none()) {
-            self.say(
-                "note: opacities span the values of each frame; a view with quantity.opacity.range keeps them steady",
-            );
+            self.say("note: opacities span the values of each frame; --steady keeps to those of all frames");
         }
         Ok(())
     }
@@ -244,7 +247,7 @@ impl Film {
         }
         self.quantity = survey.quantity();
         if !quantity_only {
-            survey.settle(&mut self.view);
+            survey.settle(&mut self.view, self.steady);
         }
         Ok(())
     }

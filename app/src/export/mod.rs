@@ -24,6 +24,7 @@ pub use output::Output;
 pub use pictures::{Made, Overlay, Pictures, Target};
 pub use shard::Shard;
 pub use stats_file::StatsFile;
+pub use survey::Steady;
 
 /// An error with its causes, on one line.
 pub fn one_line(error: &anyhow::Error) -> String {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::Context;
 use renderer::{Gpu, Renderer, View};
 
-use super::{Film, Layer, Listener, Made, Overlay, Pictures, Run, Shard, StatsFile, Target};
+use super::{Film, Layer, Listener, Made, Overlay, Pictures, Run, Shard, StatsFile, Steady, Target};
 use crate::image_file;
 
 /// Pictures or a video of frames of a run.
@@ -15,6 +15,7 @@ pub struct Order {
     /// Only this part of them.
     pub shard: Option<Shard>,
     pub view: View,
+    pub steady: Steady,
     pub target: Target,
     pub overlay: Option<Overlay>,
     pub layers: Vec<Layer>,
@@ -42,11 +43,11 @@ impl Order {
     /// # Errors
     /// What the only frame, or every frame, fails for; the file or flag comes first.
     pub fn carry_out(self, gpu: Gpu, listener: Arc<dyn Listener>) -> anyhow::Result<Summary> {
-        let Order { run, shard, view, target, overlay, layers, stats, view_file, resumes } = self;
+        let Order { run, shard, view, steady, target, overlay, layers, stats, view_file, resumes } = self;
         let renderer = Renderer::new(gpu).context("sphcast")?;
         let mut pictures = Pictures { renderer, target, overlay, stats, layers, resumes };
         pictures.prepare(&view)?;
-        let mut film = Film::new(run, view, shard, listener);
+        let mut film = Film::new(run, view, shard, listener).steady(steady);
         let mut kept = 0;
         let failed = film.each(|film, index| {
             kept += usize::from(pictures.make(film, index)? == Made::Kept);

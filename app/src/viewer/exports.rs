@@ -249,6 +249,7 @@ mod tests {
     use renderer::View;
 
     use super::*;
+    use crate::export::Steady;
     use crate::frames::Sequence;
 
     fn plan(path: PathBuf) -> Plan {
@@ -261,6 +262,7 @@ mod tests {
             every: 1,
             in_memory: None,
             view,
+            steady: Steady::default(),
             path,
             numbered: true,
             rate: 10.0,

@@ -173,12 +173,14 @@ fn ranges_come_from_the_frame_from_all_seen_or_from_the_user() {
     let first = session.question().unwrap().answer();
     session.answer(first.clone());
     assert_eq!(session.range(), first.colour.extremes);
+    assert!(session.steady().colour, "a film must look at the frame that was not seen");
     session.step(true);
     settle(&mut session);
     let second = session.question().unwrap().answer();
     session.answer(second.clone());
     let ([a, b], [c, d]) = (first.colour.extremes.unwrap(), second.colour.extremes.unwrap());
     assert_eq!(session.range(), Some([a.min(c), b.max(d)]));
+    assert!(!session.steady().colour, "all is known");
     session.range_source = RangeSource::Frame;
     assert_eq!(session.complete_view().quantity.range, None);
     session.answer(session.question().unwrap().answer());

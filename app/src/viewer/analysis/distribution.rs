@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use renderer::Scale;
 
 use crate::frames::Frame;
-use crate::scene::Selection;
-use crate::viewer::analysis::histogram::{Histogram, is_shown};
+use crate::scene::{Selection, extremes, is_shown};
+use crate::viewer::analysis::histogram::Histogram;
 
 /// What is to be counted of a field.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,19 +117,6 @@ fn without_value(frame: &Frame, axes: [&Axis; 2]) -> usize {
         axes.iter().filter_map(|axis| Selection::new(frame, axis.field.as_deref()).ok()).collect();
     let lacks = |row: &usize| fields.iter().any(|field| !field.value(*row).is_finite());
     (0..frame.len()).into_par_iter().filter(lacks).count()
-}
-
-const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
-
-/// Finite minimum and maximum over a frame, on a logarithmic scale the upper 30 decades of what is positive.
-pub fn extremes(frame: &Frame, selection: &Selection, scale: Scale) -> Option<[f64; 2]> {
-    let [low, high] = (0..frame.len())
-        .into_par_iter()
-        .map(|row| selection.value(row))
-        .filter(|q| is_shown(*q, scale))
-        .fold(|| NOTHING, |[low, high], q| [low.min(q), high.max(q)])
-        .reduce(|| NOTHING, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    (low <= high).then(|| scale.fitted([low, high]))
 }
 
 /// The values below which `shares` of all lie; there is at least one value.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use renderer::Scale;
 
 use crate::frames::Frame;
-use crate::scene::Selection;
+use crate::scene::{Selection, is_shown};
 
 /// Bars of a histogram.
 pub const BARS: usize = 128;
@@ -61,11 +61,6 @@ impl Histogram {
         let inside = |u: f64| if u >= 0.0 { u.min(1.0) as f32 } else { 0.0 };
         (0..=BARS).map(|edge| inside(u(edge))).collect()
     }
-}
-
-/// Whether a value has a place on a scale.
-pub fn is_shown(value: f64, scale: Scale) -> bool {
-    value.is_finite() && (scale == Scale::Linear || value > 0.0)
 }
 
 #[cfg(test)]

@@ -6,8 +6,7 @@ use anyhow::bail;
 use renderer::{Progress, Scale};
 
 use crate::frames::{Frame, FrameSource};
-use crate::scene::{Selection, quantity_names};
-use crate::viewer::analysis::distribution::extremes;
+use crate::scene::{Selection, extremes, quantity_names};
 
 /// A field's name, as a view has it, and a scale that it may be shown on.
 pub type Field = (Option<String>, Scale);

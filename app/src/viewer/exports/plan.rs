@@ -6,7 +6,7 @@ use std::sync::Arc;
 use renderer::{PathView, View};
 
 use crate::export::video::{USUAL_RATE, Video, VideoFormat};
-use crate::export::{Layer, Order, Output, Run, StatsFile, Target};
+use crate::export::{Layer, Order, Output, Run, StatsFile, Steady, Target};
 use crate::frames::{Frame, Sequence};
 use crate::image_file::Format;
 use crate::viewer::session::Session;
@@ -22,6 +22,7 @@ pub struct Plan {
     /// A frame that need not be read, and its number.
     pub in_memory: Option<(usize, Arc<Frame>)>,
     pub view: View,
+    pub steady: Steady,
     /// A file, a number pattern, or a video.
     pub path: PathBuf,
     /// Whether braces in it stand for the number of the frame.
@@ -47,6 +48,7 @@ impl Plan {
             every: 1,
             in_memory: None,
             view: session.saved_view(),
+            steady: session.steady(),
             path,
             numbered: true,
             rate: USUAL_RATE,
@@ -89,6 +91,7 @@ impl Plan {
             run,
             shard: None,
             view: self.view.clone(),
+            steady: self.steady,
             target,
             overlay: None,
             layers: self.layers.clone(),

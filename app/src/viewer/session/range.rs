@@ -6,6 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 use renderer::Scale;
 
 use super::Session;
+use crate::export::Steady;
 use crate::frames::Insertion;
 use crate::viewer::analysis::distribution::{Analysis, Axis, Distribution};
 use crate::viewer::analysis::survey::{Field, Found};
@@ -213,6 +214,16 @@ impl Session {
                 known.filter(|(of, _)| *of == field).map(|(_, between)| field.1.fitted(*between))
             }
             RangeSource::Fixed => by_hand,
+        }
+    }
+
+    /// Which ranges a film is to have of all frames: those of all frames seen, of which some were not.
+    pub fn steady(&self) -> Steady {
+        let all = self.run.as_ref().map_or(0, |run| run.stream.len());
+        let open = |source, role| source == RangeSource::Seen && self.frames_seen(role) < all;
+        Steady {
+            colour: open(self.range_source, Role::Colour),
+            opacity: open(self.opacity_source, Role::Opacity),
         }
     }
 
