@@ -25,7 +25,7 @@ use super::panels::preferences::Preferences;
 use super::panels::sampling::SamplingPanel;
 use super::panels::transfer_editor::TransferEditor;
 use super::render_thread::RenderThread;
-use super::session::{Session, Tool};
+use super::session::{Numbering, Session, Tool};
 use super::task::Task;
 use super::widgets::Areas;
 use super::{Options, Wake};
@@ -311,7 +311,7 @@ fn writer(sender: mpsc::Sender<Dated>, wake: &Wake) -> Writer {
     let wake = Wake::clone(wake);
     Writer::new(move |file, result| {
         // No frame's number is in it, and the window is gone when nobody listens.
-        let _ = sender.send((0, Done::Kept(file, result)));
+        let _ = sender.send((Numbering::default(), Done::Kept(file, result)));
         wake();
     })
 }

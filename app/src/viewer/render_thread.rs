@@ -23,14 +23,16 @@ use crate::viewer::inspect::pointing::Shot;
 use crate::viewer::inspect::probe::Probed;
 use crate::viewer::render_thread::budget::Budget;
 use crate::viewer::render_thread::prepare::Facts;
+use crate::viewer::session::Numbering;
 use worker::Worker;
 
 /// A wish for a picture.
 #[derive(Clone)]
 pub struct Job {
     pub frame: Arc<Frame>,
-    /// Which frame of the sequence it is.
+    /// Which frame it is, and what that number means.
     pub index: usize,
+    pub numbering: Numbering,
     /// Its image size is the full size.
     pub view: View,
     /// Whether another job will follow soon: one quick picture is enough.
@@ -53,7 +55,9 @@ pub struct Looks {
 
 /// A picture for the screen.
 pub struct Shown {
+    /// As in the job.
     pub index: usize,
+    pub numbering: Numbering,
     pub width: u32,
     pub height: u32,
     /// Opaque sRGB, row 0 on top.
@@ -94,13 +98,31 @@ pub enum Report {
         software: bool,
     },
     Picture(Box<Shown>),
+    /// Why no device is open, before there was a job.
+    NoDevice(String),
     /// Why there is no picture of this frame.
     Failed {
         index: usize,
+        numbering: Numbering,
         text: String,
     },
     /// The device was lost and opened again.
     Recovered(String),
+}
+
+impl Report {
+    /// The numbers of frames in it, and what they mean; `None` of a report that is about no frame.
+    pub fn frames(&mut self) -> Option<(Numbering, Vec<&mut usize>)> {
+        match self {
+            Report::Picture(shown) => {
+                let Shown { numbering, index, shot, .. } = &mut **shown;
+                let shot = shot.iter_mut().map(|shot| &mut shot.index);
+                Some((*numbering, shot.chain([index]).collect()))
+            }
+            Report::Failed { numbering, index, .. } => Some((*numbering, vec![index])),
+            Report::Adapter { .. } | Report::NoDevice(_) | Report::Recovered(_) => None,
+        }
+    }
 }
 
 /// The window's end of the thread.

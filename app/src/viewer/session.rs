@@ -41,6 +41,7 @@ pub use looking::{End, Looking, Tool};
 pub use picture::PictureFacts;
 pub use range::{RangeSource, Ranges, Role, Survey};
 use reading::GLANCE;
+pub use renumber::Numbering;
 
 pub struct Session {
     run: Option<Run>,
@@ -81,7 +82,9 @@ pub struct Session {
     /// Adapter's name, and whether it is a program on the CPU.
     pub adapter: Option<(String, bool)>,
     pub ranges: Ranges,
-    /// Frames that came between others, since the program was started.
+    /// How many runs were opened.
+    openings: usize,
+    /// Frames of this run that came between others.
     insertions: Vec<Insertion>,
     /// Whether the fields in the view were chosen for another run, no frame of this one being known.
     inherits_fields: bool,
@@ -136,6 +139,7 @@ impl Session {
             wants_statistics: false,
             adapter: None,
             ranges: Ranges::default(),
+            openings: 0,
             insertions: Vec::new(),
             inherits_fields: false,
             told: BTreeSet::new(),
@@ -164,6 +168,10 @@ impl Session {
         self.playback = self.playback.restarted(run.stream.len());
         self.log(format!("opened {} frames={}", run.title, run.stream.len()));
         self.run = Some(run);
+        // What is still being found out about the run before is of no use any more.
+        self.openings += 1;
+        self.insertions.clear();
+        self.ask_again();
         (self.frame, self.picture, self.analysis, self.without_picture) = (None, None, None, None);
         self.pool = Pool::default();
         self.probe = None;

@@ -52,6 +52,7 @@ pub(super) fn picture(session: &Session) -> Report {
     let (_, facts) = Preparation::default().scene(frame, &session.complete_view()).unwrap();
     Report::Picture(Box::new(Shown {
         index: *index,
+        numbering: session.numbering(),
         width: 1,
         height: 1,
         pixels: vec![[128, 128, 128, 255]],
@@ -206,7 +207,11 @@ fn playing_goes_on_where_a_frame_has_no_picture() {
     let mut session = open(&["demo:radial:27", "demo:checker:27"]);
     settle(&mut session);
     session.toggle_playing();
-    session.note(&Report::Failed { index: 0, text: "there is no field".into() });
+    session.note(&Report::Failed {
+        index: 0,
+        numbering: session.numbering(),
+        text: "there is no field".into(),
+    });
     let start = Instant::now();
     session.poll(start);
     session.poll(start + Duration::from_secs(1));

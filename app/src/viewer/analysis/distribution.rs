@@ -1,7 +1,7 @@
 //! The distribution of fields over a frame, for their ranges and for the histogram. The whole frame counts,
 //! whatever clip and filter leave: an automatic range goes by it, too.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use rayon::prelude::*;
 use renderer::Scale;
@@ -50,9 +50,11 @@ pub struct Question {
 }
 
 /// What was counted of a frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Analysis {
     pub index: usize,
+    /// The number may have been another frame's, or the frame may have been written anew.
+    frame: Weak<Frame>,
     pub colour: Distribution,
     pub opacity: Option<Distribution>,
     /// Particles that lack a finite value of either field.
@@ -96,7 +98,8 @@ impl Question {
             (None, None) => true,
             _ => false,
         };
-        self.index == answer.index && opacity && self.colour.is_answered_by(&answer.colour.axis)
+        let same_frame = std::ptr::eq(answer.frame.as_ptr(), Arc::as_ptr(&self.frame));
+        same_frame && opacity && self.colour.is_answered_by(&answer.colour.axis)
     }
 
     /// Counts, on all threads.
@@ -107,7 +110,7 @@ impl Question {
             None => colour.not_finite,
             Some(other) => without_value(&self.frame, [&self.colour, other]),
         };
-        Analysis { index: self.index, colour, opacity, left_out }
+        Analysis { index: self.index, frame: Arc::downgrade(&self.frame), colour, opacity, left_out }
     }
 }
 
@@ -232,5 +235,14 @@ mod tests {
         assert_eq!(asked.answer().colour.between, Some([10.0, 990.0]));
         let others = Question { colour: at([0.02, 0.98]), ..asked.clone() };
         assert!(!others.is_answered_by(&asked.answer()));
+    }
+
+    #[test]
+    fn another_frame_of_the_same_number_is_another_question() {
+        let asked = question(&[1.0, 2.0], None);
+        let written_anew = Question { frame: frame(&[("q", &[1.0, 2.0])]), ..asked.clone() };
+        assert!(!written_anew.is_answered_by(&asked.answer()));
+        let numbered_anew = Question { index: 7, ..asked.clone() };
+        assert!(numbered_anew.is_answered_by(&asked.answer()));
     }
 }

@@ -10,7 +10,7 @@ use crate::viewer::Wake;
 use crate::viewer::dialogs::Purpose;
 use crate::viewer::exports::{Exports, News};
 use crate::viewer::panels::export::{ExportForm, Wish};
-use crate::viewer::session::Session;
+use crate::viewer::session::{Numbering, Session};
 
 /// All that is to be saved, and the export window.
 pub struct Exporting {
@@ -19,7 +19,7 @@ pub struct Exporting {
     pub queue: Exports,
     folder_wanted: bool,
     /// That of the frames which the window names.
-    numbering: usize,
+    numbering: Numbering,
     /// Whether it is being asked if exports may be lost.
     quitting: bool,
 }
@@ -27,7 +27,13 @@ pub struct Exporting {
 impl Exporting {
     pub fn new(wake: &Wake) -> Exporting {
         let queue = Exports::new(Wake::clone(wake));
-        Exporting { form: None, queue, folder_wanted: false, numbering: 0, quitting: false }
+        Exporting {
+            form: None,
+            queue,
+            folder_wanted: false,
+            numbering: Numbering::default(),
+            quitting: false,
+        }
     }
 
     pub fn videos_possible(&mut self, possible: bool) {
@@ -36,11 +42,14 @@ impl Exporting {
         }
     }
 
-    /// Gives the frames that the window names the numbers that they have in `session` by now.
+    /// Gives the frames that the window names the numbers that they have in `session` by now; of another
+    /// run, it names all.
     fn renumber(&mut self, session: &Session) {
         let before = std::mem::replace(&mut self.numbering, session.numbering());
-        let frames = self.form.iter_mut().flat_map(|form| [&mut form.first, &mut form.last]);
-        frames.for_each(|frame| *frame = session.moved_since(before, *frame));
+        let Some(form) = &mut self.form else { return };
+        if !session.bring_up_to_date(before, [&mut form.first, &mut form.last]) {
+            (form.first, form.last) = (0, session.playback.count().saturating_sub(1));
+        }
     }
 
     /// Whether the queue is to be seen.

@@ -4,19 +4,16 @@ use std::sync::Arc;
 
 use super::{Desk, Done};
 use crate::viewer::analysis::field_ranges::FieldRanges;
-use crate::viewer::analysis::pool::{self, Pool};
-use crate::viewer::analysis::statistics::Answer;
-use crate::viewer::inspect::pointing::Pointed;
-use crate::viewer::inspect::tracked::Located;
+use crate::viewer::analysis::pool::Pool;
 
 /// What is at work.
 #[derive(Default)]
 pub(super) struct Inquiries {
-    ranges: bool,
-    pointing: bool,
-    search: bool,
-    statistics: bool,
-    pool: bool,
+    pub(super) ranges: bool,
+    pub(super) pointing: bool,
+    pub(super) search: bool,
+    pub(super) statistics: bool,
+    pub(super) pool: bool,
 }
 
 impl Desk {
@@ -77,30 +74,5 @@ impl Desk {
         if !std::mem::take(&mut self.session.wants_field_ranges) {
             self.session.field_ranges = None;
         }
-    }
-
-    pub(super) fn take_field_ranges(&mut self, ranges: FieldRanges) {
-        self.inquiries.ranges = false;
-        self.session.field_ranges = Some(ranges);
-    }
-
-    pub(super) fn take_pooled(&mut self, answer: pool::Answer) {
-        self.inquiries.pool = false;
-        self.session.pool.take(answer);
-    }
-
-    pub(super) fn take_statistics(&mut self, answer: Answer) {
-        self.inquiries.statistics = false;
-        self.session.statistics = Some(answer);
-    }
-
-    pub(super) fn take_pointed(&mut self, pointed: Pointed) {
-        self.inquiries.pointing = false;
-        self.session.take_pointed(pointed);
-    }
-
-    pub(super) fn take_located(&mut self, located: &Located) {
-        self.inquiries.search = false;
-        self.session.take_located(located);
     }
 }

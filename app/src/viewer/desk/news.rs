@@ -18,6 +18,7 @@ use crate::viewer::inspect::pointing::Pointed;
 use crate::viewer::inspect::tracked::Located;
 use crate::viewer::kept::Left;
 use crate::viewer::render_thread::Report;
+use crate::viewer::session::Numbering;
 
 /// What was done on another thread.
 pub(super) enum Done {
@@ -39,26 +40,25 @@ pub(super) enum Done {
 }
 
 impl Done {
-    /// Gives frames the numbers that they have by now.
-    fn renumber(&mut self, moved: impl Fn(usize) -> usize) {
-        let index = match self {
-            Done::Counted(analysis) => &mut analysis.index,
-            Done::Pointed(pointed) => &mut pointed.shot.index,
-            Done::Located(located) => &mut located.search.index,
+    /// The numbers of frames in it; `None` of what is about no run.
+    fn frames(&mut self) -> Option<Vec<&mut usize>> {
+        Some(match self {
+            Done::Counted(analysis) => vec![&mut analysis.index],
+            Done::Pointed(pointed) => vec![&mut pointed.shot.index],
+            Done::Located(located) => vec![&mut located.search.index],
             Done::Statistics(answer) => {
-                if let Ok(statistics) = &mut answer.statistics {
-                    statistics.frame = moved(statistics.frame);
-                }
-                &mut answer.question.index
+                let counted = answer.statistics.iter_mut().map(|statistics| &mut statistics.frame);
+                counted.chain([&mut answer.question.index]).collect()
             }
-            _ => return,
-        };
-        *index = moved(*index);
+            // They know their frames by themselves.
+            Done::Pooled(_) | Done::Ranged(_) => Vec::new(),
+            _ => return None,
+        })
     }
 }
 
 /// The same with the numbering of the frames when it was begun.
-pub(super) type Dated = (usize, Done);
+pub(super) type Dated = (Numbering, Done);
 
 /// A run that is looked for.
 pub(super) struct Opening {
@@ -72,6 +72,7 @@ pub(super) struct Opening {
 impl Desk {
     pub(super) fn take_reports(&mut self) {
         for report in self.render.reports() {
+            let Some(report) = self.session.current(report) else { continue };
             self.session.note(&report);
             if let Report::Picture(shown) = report {
                 self.picture.layers.set(*shown);
@@ -81,7 +82,10 @@ impl Desk {
 
     pub(super) fn take_done(&mut self) {
         while let Ok((numbering, mut done)) = self.done.1.try_recv() {
-            done.renumber(|index| self.session.moved_since(numbering, index));
+            self.is_free_again(&done);
+            if done.frames().is_some_and(|frames| !self.session.bring_up_to_date(numbering, frames)) {
+                continue;
+            }
             match done {
                 // Something else was opened since.
                 Done::Found(opening, _) if opening.search != self.searches => {}
@@ -110,12 +114,9 @@ impl Desk {
                     self.session.complain(format!("{error:#}"));
                 }
                 Done::Function(filed) => self.take_function(filed),
-                Done::Counted(analysis) => {
-                    self.counting = false;
-                    self.session.answer(*analysis);
-                }
-                Done::Pooled(answer) => self.take_pooled(*answer),
-                Done::Ranged(ranges) => self.take_field_ranges(ranges),
+                Done::Counted(analysis) => self.session.answer(*analysis),
+                Done::Pooled(answer) => self.session.pool.take(*answer),
+                Done::Ranged(ranges) => self.session.field_ranges = Some(ranges),
                 Done::Kept(file, result) => self.written(file, result),
                 Done::VideosPossible(possible) => self.exporting.videos_possible(possible),
                 Done::Adapters(names) => {
@@ -131,10 +132,24 @@ impl Desk {
                          the program if anything does not go on",
                     );
                 }
-                Done::Pointed(pointed) => self.take_pointed(*pointed),
-                Done::Located(located) => self.take_located(&located),
-                Done::Statistics(answer) => self.take_statistics(*answer),
+                Done::Pointed(pointed) => self.session.take_pointed(*pointed),
+                Done::Located(located) => self.session.take_located(&located),
+                Done::Statistics(answer) => self.session.statistics = Some(*answer),
             }
+        }
+    }
+
+    /// Takes note that the next work of this kind may begin.
+    fn is_free_again(&mut self, done: &Done) {
+        let inquiries = &mut self.inquiries;
+        match done {
+            Done::Counted(_) => self.counting = false,
+            Done::Pooled(_) => inquiries.pool = false,
+            Done::Ranged(_) => inquiries.ranges = false,
+            Done::Pointed(_) => inquiries.pointing = false,
+            Done::Located(_) => inquiries.search = false,
+            Done::Statistics(_) => inquiries.statistics = false,
+            _ => {}
         }
     }
 

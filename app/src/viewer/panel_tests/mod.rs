@@ -94,6 +94,7 @@ fn shown(session: &Session, stats: Stats) -> Shown {
     let (_, facts) = Preparation::default().scene(frame, &session.complete_view()).unwrap();
     Shown {
         index: *index,
+        numbering: session.numbering(),
         width: 1,
         height: 1,
         pixels: vec![[128, 128, 128, 255]],

@@ -117,6 +117,7 @@ mod tests {
         let map = CellMap { size: [8, 8], count: [1, 1], layers: 1, bundles };
         Shown {
             index: 0,
+            numbering: Default::default(),
             width: 8,
             height: 8,
             pixels: vec![[50, 50, 50, 255]; 64],

@@ -110,7 +110,7 @@ impl Worker {
     pub(super) fn run(mut self) {
         // Opened before the first job comes: the shaders compile while the first frame is read.
         if let Err(text) = self.open() {
-            self.report(Report::Failed { index: 0, text });
+            self.report(Report::NoDevice(text));
         }
         while let Some(job) = self.slot.next() {
             let result = catch_unwind(AssertUnwindSafe(|| self.serve(&job))).unwrap_or_else(|_| {
@@ -120,7 +120,7 @@ impl Worker {
             });
             self.slot.share.store(IDLE, Ordering::Relaxed);
             if let Err(Stop::Failed(text)) = result {
-                self.report(Report::Failed { index: job.index, text });
+                self.report(Report::Failed { index: job.index, numbering: job.numbering, text });
             }
         }
     }
@@ -278,6 +278,7 @@ impl Worker {
         let Last { divisor, picture, facts, asked, view, cells, probed, .. } = last;
         let shown = Shown {
             index: job.index,
+            numbering: job.numbering,
             width: picture.width,
             height: picture.height,
             pixels: tone::to_screen(&picture.pixels, job.view.image.background),

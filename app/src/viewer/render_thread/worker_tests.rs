@@ -12,6 +12,7 @@ fn job(frame: &Arc<Frame>, width: u32) -> Job {
     Job {
         frame: Arc::clone(frame),
         index: 0,
+        numbering: Default::default(),
         view,
         moving: false,
         budget: Budget::default(),

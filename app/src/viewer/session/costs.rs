@@ -199,6 +199,7 @@ mod tests {
         let stats = Stats { milliseconds, evaluations, predicted_error: 0.002, ..Stats::default() };
         Shown {
             index: 3,
+            numbering: Default::default(),
             width: 1,
             height: 1,
             pixels: Vec::new(),

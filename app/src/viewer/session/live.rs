@@ -59,6 +59,8 @@ impl Session {
             // It may be good now, and is told again where it is not.
             self.told.remove(&index);
             self.told_left_out.remove(&index);
+            self.ranges.forget(index);
+            self.ranges.begin_survey_again();
             self.log(format!("changed frame={index}"));
         }
         if count > before {

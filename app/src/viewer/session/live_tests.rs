@@ -107,7 +107,10 @@ fn what_is_about_a_frame_stays_with_it_when_another_comes_before() {
     assert_eq!(session.told.iter().copied().collect::<Vec<_>>(), [5]);
     assert_eq!(session.without_picture, Some(3));
     assert!(session.question().is_none(), "what is known of the frame is known");
-    assert_eq!((session.moved_since(asked, 2), session.moved_since(session.numbering(), 2)), (5, 2));
+    let (mut before, mut now_numbered) = ([2], [2]);
+    assert!(session.bring_up_to_date(asked, &mut before));
+    assert!(session.bring_up_to_date(session.numbering(), &mut now_numbered));
+    assert_eq!((before, now_numbered), ([5], [2]));
     session.remember(now + Duration::from_secs(3), false);
     assert!(session.can_undo(), "the keyframe is a step, to be numbered anew is none");
     session.undo();
@@ -177,4 +180,40 @@ fn a_frame_that_stays_bad_is_told() {
     session.open(run);
     until(&mut session, "the message", |session| !session.messages.list().is_empty());
     assert!(session.trouble().is_some());
+}
+
+#[test]
+fn a_frame_that_is_written_anew_is_counted_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |number: usize, heat: [f64; 2]| {
+        let text = format!("x,y,z,heat\n0,0,0,{}\n1,0,0,{}\n", heat[0], heat[1]);
+        std::fs::write(folder.path().join(format!("a_{number}.csv")), text).unwrap();
+    };
+    write(1, [1.0, 2.0]);
+    write(2, [0.0, 900.5]);
+    let (mut session, paths, _) = session(folder.path());
+    session.view.quantity.name = Some("heat".into());
+    let mut watcher = Watcher::new(paths.clone(), &Sequence::open(&paths).unwrap());
+    let later = SystemTime::now() + Duration::from_secs(3600);
+    let mut look = |session: &mut Session| (0..2).for_each(|_| session.take_change(&watcher.look(later)));
+    look(&mut session);
+    let count = |session: &mut Session, index, heat: f64| {
+        session.jump(index);
+        until(session, "the frame", |session| {
+            let frame = session.frame().filter(|(here, _)| *here == index);
+            let heat_of = |frame: &crate::frames::Frame| frame.field("heat").unwrap().column.get(1, 0);
+            frame.is_some_and(|(_, frame)| heat_of(frame) == heat)
+        });
+        let question = session.question().expect("what is in it is not known");
+        session.answer(question.answer());
+    };
+    count(&mut session, 0, 2.0);
+    count(&mut session, 1, 900.5);
+    assert_eq!(session.range(), Some([0.0, 900.5]));
+    write(2, [3.0, 4.25]);
+    look(&mut session);
+    count(&mut session, 1, 4.25);
+    assert_eq!(session.range(), Some([1.0, 4.25]), "what was half written is no longer seen");
+    let found = session.distribution(crate::viewer::session::Role::Colour).unwrap();
+    assert_eq!(found.extremes, Some([3.0, 4.25]));
 }

@@ -4,6 +4,7 @@ use renderer::{AnnotationsView, OpacityView, Scale};
 
 use super::tests::{ROOM, open, picture, run, settle};
 use super::*;
+use crate::viewer::render_thread::Report;
 use crate::viewer::render_thread::prepare::Preparation;
 
 /// A session that shows its run, with a picture.
@@ -114,4 +115,22 @@ fn a_session_goes_on_in_the_size_of_the_window_or_in_its_own() {
     let mut written = serde_json::to_value(&old).unwrap();
     written.as_object_mut().unwrap().remove("fits_window").unwrap();
     assert_eq!(serde_json::from_value::<LastSession>(written).unwrap().fits_window, None);
+}
+
+#[test]
+fn what_comes_late_about_the_run_before_is_dropped() {
+    let mut session = shown(&["demo:radial:27"]);
+    let (late, question) = (picture(&session), session.question().unwrap());
+    let begun = session.numbering();
+    let failed = Report::Failed { index: 0, numbering: begun, text: "no".into() };
+    session.open(run(&["demo:checker:64"]));
+    assert!(session.current(late).is_none() && session.current(failed).is_none());
+    assert!(!session.bring_up_to_date(begun, &mut [0]));
+    settle(&mut session);
+    let job = session.job(Instant::now(), ROOM).expect("another picture");
+    assert_eq!(job.numbering, session.numbering());
+    assert!(session.current(picture(&session)).is_some());
+    assert!(session.current(Report::Recovered("lost".into())).is_some(), "that is about no run");
+    session.answer(question.answer());
+    assert!(session.question().is_some(), "a histogram of another frame is no answer");
 }

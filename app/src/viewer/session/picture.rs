@@ -42,7 +42,8 @@ impl Session {
                 self.log(format!("adapter {name}"));
             }
             Report::Picture(shown) => self.note_picture(shown),
-            Report::Failed { index, text } => {
+            Report::NoDevice(text) => self.complain(text.clone()),
+            Report::Failed { index, text, .. } => {
                 self.without_picture = Some(*index);
                 self.messages.error(text.clone());
                 self.log(format!("failed frame={index} {text}"));

@@ -1,7 +1,7 @@
 //! The values at both ends of the transfer function: of the field that is shown, and of the one that decides
 //! the opacity.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 
 use renderer::Scale;
 
@@ -49,10 +49,47 @@ pub struct Ranges {
     /// Shares of the particles below and above which values are left out, by role.
     pub quantiles: [[f64; 2]; 2],
     pub survey: Survey,
-    /// Extremes of each field, and the frames that they are of.
-    seen: HashMap<Field, ([f64; 2], BTreeSet<usize>)>,
+    seen: HashMap<Field, Seen>,
     /// Values at the quantiles, in the frame that was counted last, by role.
     between: [Option<(Field, [f64; 2])>; 2],
+}
+
+/// The extremes of a field in the frames that were counted.
+struct Seen {
+    frames: BTreeMap<usize, [f64; 2]>,
+    /// Of all of them.
+    all: [f64; 2],
+}
+
+impl Default for Seen {
+    fn default() -> Seen {
+        Seen { frames: BTreeMap::new(), all: [f64::INFINITY, f64::NEG_INFINITY] }
+    }
+}
+
+impl Seen {
+    fn see(&mut self, index: usize, extremes: [f64; 2]) {
+        match self.frames.insert(index, extremes) {
+            None => self.all = around(self.all, extremes),
+            Some(before) if before != extremes => self.sum_up(),
+            Some(_) => {}
+        }
+    }
+
+    fn forget(&mut self, index: usize) {
+        if self.frames.remove(&index).is_some() {
+            self.sum_up();
+        }
+    }
+
+    fn sum_up(&mut self) {
+        self.all = self.frames.values().copied().fold(Seen::default().all, around);
+    }
+}
+
+/// The range that holds both.
+fn around(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
 }
 
 impl Default for Ranges {
@@ -69,15 +106,25 @@ impl Ranges {
     }
 
     pub(super) fn renumber(&mut self, insertion: &Insertion) {
-        for (_, frames) in self.seen.values_mut() {
-            *frames = frames.iter().map(|index| insertion.moved(*index)).collect();
+        for Seen { frames, .. } in self.seen.values_mut() {
+            *frames = frames.iter().map(|(index, extremes)| (insertion.moved(*index), *extremes)).collect();
         }
     }
 
-    fn see(&mut self, index: usize, field: Field, [low, high]: [f64; 2]) {
-        let (seen, frames) = self.seen.entry(field).or_insert(([low, high], BTreeSet::new()));
-        *seen = [seen[0].min(low), seen[1].max(high)];
-        frames.insert(index);
+    fn see(&mut self, index: usize, field: Field, extremes: [f64; 2]) {
+        self.seen.entry(field).or_default().see(index, extremes);
+    }
+
+    /// Forgets what was in a frame that is another one now.
+    pub(super) fn forget(&mut self, index: usize) {
+        self.seen.values_mut().for_each(|seen| seen.forget(index));
+    }
+
+    /// Looks through all frames once more where that is at work on what is no longer so.
+    pub(super) fn begin_survey_again(&mut self) {
+        if let Survey::Running(_) = self.survey {
+            self.survey = Survey::Wanted;
+        }
     }
 }
 
@@ -167,7 +214,7 @@ impl Session {
     /// Of how many frames the extremes of the field that has a role are known.
     pub fn frames_seen(&self, role: Role) -> usize {
         let seen = self.field_of(role).and_then(|field| self.ranges.seen.get(&field));
-        seen.map_or(0, |(_, frames)| frames.len())
+        seen.map_or(0, |seen| seen.frames.len())
     }
 
     /// What was counted of the field that has a role, in the frame that was counted last.
@@ -208,7 +255,10 @@ impl Session {
         let field = self.field_of(role)?;
         match [self.range_source, self.opacity_source][role as usize] {
             RangeSource::Frame => None,
-            RangeSource::Seen => self.ranges.seen.get(&field).map(|(extremes, _)| field.1.fitted(*extremes)),
+            RangeSource::Seen => {
+                let seen = self.ranges.seen.get(&field).filter(|seen| !seen.frames.is_empty());
+                seen.map(|seen| field.1.fitted(seen.all))
+            }
             RangeSource::Quantiles => {
                 let known = self.ranges.between[role as usize].as_ref();
                 known.filter(|(of, _)| *of == field).map(|(_, between)| field.1.fitted(*between))

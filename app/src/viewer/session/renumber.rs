@@ -1,20 +1,50 @@
-//! What has numbers of frames in it when a frame comes late and goes between others.
+//! What has numbers of frames in it when a frame comes late and goes between others, and what was begun
+//! about a run when another one is opened.
 
 use renderer::{Keyframe, View};
 
-use super::{Session, Survey};
+use super::Session;
 use crate::frames::Insertion;
+use crate::viewer::render_thread::Report;
+
+/// What numbers of frames mean: of which of the runs that were opened, and after how many insertions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Numbering {
+    opening: usize,
+    insertions: usize,
+}
 
 impl Session {
-    /// How often frames went between others, for [`Session::moved_since`].
-    pub fn numbering(&self) -> usize {
-        self.insertions.len()
+    /// The present one, for [`Session::bring_up_to_date`].
+    pub fn numbering(&self) -> Numbering {
+        Numbering { opening: self.openings, insertions: self.insertions.len() }
     }
 
-    /// The number that a frame has now, which was `index` when the numbering was `numbering`.
-    pub fn moved_since(&self, numbering: usize, index: usize) -> usize {
-        let later = self.insertions.iter().skip(numbering);
-        later.fold(index, |index, insertion| insertion.moved(index))
+    /// Gives frames that had numbers by `numbering` those that they have now. Returns whether they are
+    /// frames of the run that is open: otherwise they have none.
+    pub fn bring_up_to_date<'a>(
+        &self,
+        numbering: Numbering,
+        frames: impl IntoIterator<Item = &'a mut usize>,
+    ) -> bool {
+        if numbering.opening != self.openings {
+            return false;
+        }
+        let later = || self.insertions.iter().skip(numbering.insertions);
+        for frame in frames {
+            *frame = later().fold(*frame, |index, insertion| insertion.moved(index));
+        }
+        true
+    }
+
+    /// A report with the numbers that frames have by now; `None` where it is about a run that is no longer
+    /// open.
+    pub fn current(&self, mut report: Report) -> Option<Report> {
+        let is_current = match report.frames() {
+            Some((numbering, frames)) => self.bring_up_to_date(numbering, frames),
+            None => true,
+        };
+        is_current.then_some(report)
     }
 
     /// Gives everything that is about a frame the number that this frame has from now on.
@@ -36,12 +66,8 @@ impl Session {
         self.history.each_view(|view| move_keyframes(view, &insertion));
         // Counted anew when it is looked at.
         self.statistics = None;
-        if let Survey::Running(_) = self.ranges.survey {
-            self.ranges.survey = Survey::Wanted;
-        }
+        self.ranges.begin_survey_again();
         self.insertions.push(insertion);
-        // What is being drawn has its old number.
-        self.ask_again();
     }
 }
 

@@ -22,6 +22,7 @@ impl Session {
             Looks { cells: self.overlay.needs_cells(), probe: self.probe, shot: self.looking.needs_shot() };
         let job = Job {
             frame: Arc::clone(frame),
+            numbering: self.numbering(),
             index: *index,
             view: self.drawn_view(),
             moving,
