@@ -169,7 +169,12 @@ fn a_followed_particle_is_found_in_the_next_frame_and_the_camera_goes_along() {
     session.looking.pick(Tracked::new(frame, index, 1));
     session.keep_in_the_middle(true);
     let target = |session: &Session| session.complete_view().camera.unwrap().target;
+    let now = Instant::now();
+    session.remember(now, false);
     assert_eq!(go(&mut session), 1);
+    session.remember(now, true);
+    session.remember(now, false);
+    assert!(!session.can_undo(), "to go along is no step of the user's");
     let picked = session.looking.picked.clone().unwrap().particle;
     assert_eq!((picked.index, picked.row, picked.mark, picked.lost), (1, 1, Mark::Id(2.0), false));
     assert_eq!(target(&session), DVec3::new(1.0, 4.0, 0.0));

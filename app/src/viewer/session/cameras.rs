@@ -99,7 +99,7 @@ impl Session {
             return;
         }
         let (path, count) = (&self.view.path, self.playback.count());
-        let now = camera.to_view();
+        let (here, now) = (*camera, camera.to_view());
         let next = match (path.keyframes.is_empty(), before) {
             (false, _) => camera_at(path, &now, frame as f64, count),
             // From wherever the user has turned it to.
@@ -111,7 +111,7 @@ impl Session {
         };
         if next != now {
             camera.adopt(&next);
-            self.moved_by_itself();
+            self.moved_by_itself(here);
         }
     }
 

@@ -1,12 +1,13 @@
 //! Undo and redo of what defines the picture: the settings of the view, and the camera.
 //!
 //! A step is what one gesture changed. A drag is over when the button is released; what wheel and keys
-//! change is over when it has rested for a while.
+//! change is over when it has rested for a while. Where the camera goes by itself, along its path or after a
+//! particle, that is no step: a step takes the camera back only where the user moved it.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use renderer::View;
+use renderer::{CameraView, View};
 
 use super::{RangeSource, Session};
 use crate::viewer::orbit_camera::OrbitCamera;
@@ -47,12 +48,15 @@ impl Moment {
     }
 
     fn is_same(&self, other: &Moment) -> bool {
-        let camera = |moment: &Moment| moment.camera.map(OrbitCamera::to_view);
         self.view == other.view
             && self.range_sources == other.range_sources
             && self.quantiles == other.quantiles
             && self.fits_window == other.fits_window
-            && camera(self) == camera(other)
+            && self.camera_view() == other.camera_view()
+    }
+
+    fn camera_view(&self) -> Option<CameraView> {
+        self.camera.map(OrbitCamera::to_view)
     }
 
     fn restore(self, session: &mut Session) {
@@ -68,13 +72,35 @@ impl Moment {
     }
 }
 
+/// What the user changed at once.
+#[derive(Clone, Debug)]
+struct Step {
+    /// What it leads back to, or on to where it was undone.
+    to: Moment,
+    /// Whether the camera is one of the things that were changed.
+    steered: bool,
+}
+
+impl Step {
+    /// Puts the session where the step leads. Returns the step that leads back here.
+    fn take(mut self, session: &mut Session) -> Option<Step> {
+        let camera = session.camera;
+        if !self.steered {
+            self.to.camera = camera.or(self.to.camera);
+        }
+        let present = session.history.present.replace(self.to.clone());
+        self.to.restore(session);
+        present.map(|moment| Step { to: Moment { camera, ..moment }, steered: self.steered })
+    }
+}
+
 /// Steps back and forth, and the one that is being made.
 #[derive(Default)]
 pub struct History {
-    past: VecDeque<Moment>,
+    past: VecDeque<Step>,
     /// The last moment at rest.
     present: Option<Moment>,
-    future: Vec<Moment>,
+    future: Vec<Step>,
     /// How things were at the last look, and since when.
     latest: Option<(Moment, Instant)>,
     held: bool,
@@ -85,14 +111,16 @@ impl History {
     pub(super) fn each_view(&mut self, change: impl Fn(&mut View)) {
         let History { past, present, future, latest, held: _ } = self;
         let latest = latest.as_mut().map(|(moment, _)| moment);
-        let moments = past.iter_mut().chain(present).chain(future).chain(latest);
-        moments.for_each(|moment| change(&mut moment.view));
+        let steps = past.iter_mut().chain(future).map(|step| &mut step.to);
+        steps.chain(present).chain(latest).for_each(|moment| change(&mut moment.view));
     }
 
     fn commit(&mut self, moment: Moment) {
+        let after = moment.camera_view();
         let Some(before) = self.present.replace(moment) else { return };
         self.future.clear();
-        self.past.push_back(before);
+        let steered = before.camera_view() != after;
+        self.past.push_back(Step { to: before, steered });
         if self.past.len() > STEPS {
             self.past.pop_front();
         }
@@ -135,10 +163,14 @@ impl Session {
         }
     }
 
-    /// Says that the camera went along its path: that is no step of the user's.
-    pub(super) fn moved_by_itself(&mut self) {
-        if let Some(present) = &mut self.history.present {
-            present.camera = self.camera;
+    /// Says that the camera went on from `before` by itself: that is no step of the user's. Where the user had
+    /// moved it since the last step, that is still one.
+    pub(super) fn moved_by_itself(&mut self, before: OrbitCamera) {
+        let History { present, latest, .. } = &mut self.history;
+        for moment in present.iter_mut().chain(latest.iter_mut().map(|(moment, _)| moment)) {
+            if moment.camera_view() == Some(before.to_view()) {
+                moment.camera = self.camera;
+            }
         }
     }
 
@@ -161,10 +193,9 @@ impl Session {
         if let Some((moment, _)) = self.history.latest.take() {
             self.history.commit(moment);
         }
-        let history = &mut self.history;
-        let Some(before) = history.past.pop_back() else { return };
-        history.future.extend(history.present.replace(before.clone()));
-        before.restore(self);
+        let Some(step) = self.history.past.pop_back() else { return };
+        let back = step.take(self);
+        self.history.future.extend(back);
         self.log("undone");
     }
 
@@ -173,10 +204,9 @@ impl Session {
         if !self.can_redo() {
             return;
         }
-        let history = &mut self.history;
-        let Some(after) = history.future.pop() else { return };
-        history.past.extend(history.present.replace(after.clone()));
-        after.restore(self);
+        let Some(step) = self.history.future.pop() else { return };
+        let back = step.take(self);
+        self.history.past.extend(back);
         self.log("redone");
     }
 }
@@ -257,6 +287,63 @@ mod tests {
         assert_eq!((session.range_source, session.view.quantity.range), (RangeSource::Frame, None));
         session.redo();
         assert_eq!(session.range_source, RangeSource::Fixed);
+    }
+
+    /// Moves the camera as its path does.
+    fn goes_on(session: &mut Session, by: f64) {
+        let camera = session.camera.as_mut().unwrap();
+        let before = *camera;
+        camera.shift(glam::DVec3::new(by, 0.0, 0.0));
+        session.moved_by_itself(before);
+    }
+
+    #[test]
+    fn a_step_takes_only_a_camera_back_that_the_user_moved() {
+        let (mut session, now) = session();
+        set(&mut session, 3.0);
+        session.remember(now, true);
+        session.remember(now, false);
+        for _ in 0..50 {
+            goes_on(&mut session, 1.0);
+            session.remember(now, false);
+        }
+        let here = session.camera.unwrap().to_view();
+        session.undo();
+        assert_eq!((session.view.sampling.rate, session.camera.unwrap().to_view()), (1.0, here));
+        assert!(!session.can_undo() && session.can_redo(), "to go along is no step, and ends no others");
+        goes_on(&mut session, 1.0);
+        session.remember(now, false);
+        let farther = session.camera.unwrap().to_view();
+        session.redo();
+        assert_eq!((session.view.sampling.rate, session.camera.unwrap().to_view()), (3.0, farther));
+        session.undo();
+        session.redo();
+        assert_eq!(session.camera.unwrap().to_view(), farther);
+    }
+
+    #[test]
+    fn a_camera_that_the_user_turns_on_its_way_is_a_step() {
+        let (mut session, now) = session();
+        goes_on(&mut session, 1.0);
+        let before = session.camera.unwrap().to_view();
+        session.camera.as_mut().unwrap().look_from(Side::NegX);
+        session.remember(now, true);
+        goes_on(&mut session, 1.0);
+        session.remember(now, true);
+        session.remember(now, false);
+        assert!(session.can_undo());
+        let turned = session.camera.unwrap().to_view();
+        session.undo();
+        assert_eq!(session.camera.unwrap().to_view(), before);
+        session.redo();
+        assert_eq!(session.camera.unwrap().to_view(), turned);
+        // With the wheel, it is one when the user has rested, although the camera goes on.
+        session.camera.as_mut().unwrap().look_from(Side::PosY);
+        for tick in 0..5 {
+            session.remember(now + tick * REST / 2, false);
+            goes_on(&mut session, 1.0);
+        }
+        assert_eq!((session.history.past.len(), session.step_due()), (2, None));
     }
 
     #[test]

@@ -253,7 +253,9 @@ impl Session {
         picked.particle.take(located);
         let way = picked.particle.position() - before;
         if let Some(camera) = self.camera.as_mut().filter(|_| picked.in_the_middle) {
+            let before = *camera;
             camera.shift(way);
+            self.moved_by_itself(before);
         }
     }
 }
