@@ -198,6 +198,25 @@ fn unsound_particles_are_left_out_and_counted() {
 }
 
 #[test]
+fn what_weighs_nothing_changes_nothing() {
+    let mut good = scenes::plain(37, 33, 21);
+    for (i, particle) in good.particles.iter_mut().enumerate() {
+        particle.volume = [8.0, 1.0, 2.0][i % 3];
+    }
+    let template = Particle { volume: 0.0, ..particle(DVec3::new(0.1, 0.1, 1.0), 0.5, 0.9) };
+    let mut mixed = good.clone();
+    mixed.name = "with particles of no volume".to_owned();
+    for i in 0..5 {
+        mixed.particles.insert(60 * i, template);
+    }
+    let picture_of_mixed = render(&mut shared(), &prepare(&mixed));
+    assert_eq!(picture_of_mixed.stats.rejected.total(), 0);
+    assert_eq!(picture(&good).pixels, Image::from(&picture_of_mixed).pixels);
+    assert_alike([mixed]);
+    assert_empty(&scene("nothing but particles of no volume", vec![template; 3]));
+}
+
+#[test]
 fn quantities_at_the_edge_of_their_numbers() {
     assert_alike(extremes::quantities_at_the_edge_of_their_numbers(SIZE));
 }

@@ -186,6 +186,7 @@ pub fn rejected_warning(frame: &Frame, particles: &ParticleSet, quantity: &Quant
     let reasons = [
         (non_finite, "position or volume not finite"),
         (bad_radius, "support radius not positive and finite"),
+        (particles.weightless(), "no weight, since mass/density is not above 0"),
         (quantity.rejected(), lacking),
     ];
     let left_out: u64 = reasons.iter().map(|(count, _)| count).sum();

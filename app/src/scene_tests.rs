@@ -72,6 +72,17 @@ fn a_bad_radius_leaves_out_its_particle_only() {
 }
 
 #[test]
+fn a_mass_that_is_not_above_zero_leaves_out_its_particle_with_a_warning() {
+    let frame = bare(&[("mass", vec![2.0, 0.0, -1.0, 3.0]), ("density", vec![1.0; 4]), ("q", vec![1.0; 4])]);
+    let set = particles(&frame, Some(0.1)).unwrap();
+    assert_eq!((set.len(), set.weightless(), set.rejected().total()), (2, 2, 0));
+    assert_eq!([set.source_row(0), set.source_row(1)], [0, 3]);
+    let q = quantity(&frame, &set, &QuantityView::default()).unwrap();
+    let warning = rejected_warning(&frame, &set, &q).unwrap();
+    assert_eq!(warning, "2 of 4 particles are left out: no weight, since mass/density is not above 0 (2)");
+}
+
+#[test]
 fn names_select_fields_components_and_lengths() {
     let velocity: Vec<f64> = [3.0, 4.0, 0.0].repeat(4);
     let frame = bare(&[("Velocities", velocity), ("rho", vec![2.0; 4])]);

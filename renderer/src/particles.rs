@@ -18,7 +18,8 @@ pub struct RawParticle {
     pub position: [f64; 3],
     /// Radius at which the kernel reaches zero.
     pub support_radius: f64,
-    /// V_j = m_j/ρ_j, in any unit: only ratios between particles matter.
+    /// V_j = m_j/ρ_j, in any unit: only ratios between particles matter. One that is not above 0 gives the
+    /// particle no weight, and it is left out.
     pub volume: f64,
 }
 
@@ -72,7 +73,8 @@ pub struct ParticleSet {
     radii: [f64; 2],
     whole: Extent,
     rejected: Rejected,
-    /// Rows in the source, and those of them that are rejected, in ascending order.
+    weightless: u64,
+    /// Rows in the source, and those of them that make no particle, in ascending order.
     rows: usize,
     bad: Vec<u32>,
     /// Row in the source of each kept particle; `None` where every row was kept.
@@ -136,6 +138,7 @@ impl ParticleSet {
             radii,
             whole: verdicts.whole,
             rejected: verdicts.rejected,
+            weightless: verdicts.weightless,
             rows: count,
             bad: verdicts.bad,
             source,
@@ -161,6 +164,11 @@ impl ParticleSet {
     /// Particles left out for their position, volume or radius.
     pub fn rejected(&self) -> Rejected {
         self.rejected
+    }
+
+    /// Particles left out because their volume is not above 0: they are no part of any sum.
+    pub fn weightless(&self) -> u64 {
+        self.weightless
     }
 
     /// Box around the centres of the kept particles; `None` without particles.
@@ -358,9 +366,9 @@ fn join(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].min(b[0]), a[1].max(b[1])]
 }
 
-/// ln(V/h³): logarithms, since h³ of a run in metres of the cosmos overflows.
+/// ln(V/h³) of a volume above 0: logarithms, since h³ of a run in metres of the cosmos overflows.
 fn weight_of(raw: &RawParticle) -> f64 {
-    raw.volume.max(f64::MIN_POSITIVE).ln() - 3.0 * raw.support_radius.ln()
+    raw.volume.ln() - 3.0 * raw.support_radius.ln()
 }
 
 /// The middle of two logarithms.

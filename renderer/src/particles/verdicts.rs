@@ -20,12 +20,14 @@ pub struct Extent {
 pub(super) struct Verdicts {
     /// The rows that are sound and selected.
     pub rows: Vec<u32>,
-    /// Those that are not sound.
+    /// Those that are not sound, or weigh nothing.
     pub bad: Vec<u32>,
     pub selected: Extent,
     /// Of all that is sound.
     pub whole: Extent,
     pub rejected: Rejected,
+    /// Rows of `bad` whose particles are sound, but weigh nothing.
+    pub weightless: u64,
     /// Extremes of ln(V/h³) over what is selected.
     pub weights: [f64; 2],
 }
@@ -56,6 +58,7 @@ impl Verdicts {
             selected: Extent::NONE,
             whole: Extent::NONE,
             rejected: Rejected::default(),
+            weightless: 0,
             weights: EMPTY,
         }
     }
@@ -66,6 +69,11 @@ impl Verdicts {
         if !(finite && h.is_finite() && h > 0.0) {
             let reason = if finite { &mut self.rejected.bad_radius } else { &mut self.rejected.non_finite };
             *reason += 1;
+            self.bad.push(row as u32);
+            return self;
+        }
+        if raw.volume <= 0.0 {
+            self.weightless += 1;
             self.bad.push(row as u32);
             return self;
         }
@@ -90,6 +98,7 @@ impl Verdicts {
         self.whole = self.whole.and(next.whole);
         self.rejected.non_finite += next.rejected.non_finite;
         self.rejected.bad_radius += next.rejected.bad_radius;
+        self.weightless += next.weightless;
         self.weights = join(self.weights, next.weights);
         self
     }
