@@ -45,7 +45,8 @@ impl Buffer {
         // The old memory goes before the new is taken: both may not fit side by side.
         self.buffer.destroy();
         self.buffer = create(gpu, self.label, needed, self.usage);
-        gpu.check()
+        // One that could not be had would pass for as large as it was to be.
+        gpu.check().inspect_err(|_| self.buffer = create(gpu, self.label, self.stride, self.usage))
     }
 
     /// Makes room for `values` and writes them.
@@ -137,5 +138,28 @@ impl Readback {
             .get_mapped_range(..self.size)
             .map_err(|error| RenderError::Device(error.to_string()))?;
         Ok(bytemuck::pod_collect_to_vec(&view))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::GpuOptions;
+
+    #[test]
+    fn a_buffer_that_could_not_be_had_is_not_taken_for_one() {
+        let mut gpu = Gpu::new(&GpuOptions::default()).unwrap();
+        // Then it is the device that finds it too large.
+        (gpu.limits.max_buffer_size, gpu.limits.max_storage_buffer_binding_size) = (u64::MAX, u64::MAX);
+        let mut buffer = Buffer::storage(&gpu, "numbers", 4);
+        buffer.write(&gpu, &[1_u32]).unwrap();
+        assert!(buffer.reserve(&gpu, 1 << 52).is_err());
+        assert_eq!(buffer.bytes(), GRAIN);
+        let numbers: Vec<u32> = (0..1000).collect();
+        buffer.write(&gpu, &numbers).unwrap();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let copy = buffer.read_back(&gpu, &mut encoder, 1000);
+        gpu.queue.submit([encoder.finish()]);
+        assert_eq!(copy.take::<u32>(&gpu).unwrap(), numbers);
     }
 }

@@ -338,7 +338,13 @@ impl Worker {
                     return Err(Stop::Cancelled);
                 }
                 Ok(Err(RenderError::DeviceLost(why))) if attempt == 0 => self.recover(&why)?,
-                Ok(Err(error)) => return Err(Stop::Failed(error.to_string())),
+                Ok(Err(error)) => {
+                    if matches!(error, RenderError::OutOfMemory(_) | RenderError::Device(_)) {
+                        // What it holds of the device may be what the next picture lacks.
+                        self.renderer = None;
+                    }
+                    return Err(Stop::Failed(error.to_string()));
+                }
                 Err(_) => {
                     // Whatever state the renderer is in, the next picture gets a new one.
                     self.renderer = None;
