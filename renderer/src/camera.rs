@@ -98,12 +98,16 @@ pub struct Slices {
 }
 
 impl Slices {
+    /// The most layers of cells that a picture may have: the host and the device take bytes for each, and an
+    /// f32 counts up to 2²⁴ slices.
+    pub(crate) const MAX_LAYERS: u64 = 1 << 20;
+
     /// Slices for a picture `height` pixels high at `rate` slices per pixel size.
     pub fn new(camera: &Camera, height: u32, rate: f64) -> Slices {
         let log_range = (camera.far / camera.near).ln();
         let per_log = rate * f64::from(height) / (2.0 * camera.tan_half_fov);
         let layers = (per_log * log_range / f64::from(CELL_SLICES)).ceil().max(1.0);
-        let count = layers as u64 * u64::from(CELL_SLICES);
+        let count = (layers as u64).saturating_mul(u64::from(CELL_SLICES));
         Slices { near: camera.near, count, log_step: log_range / count as f64 }
     }
 

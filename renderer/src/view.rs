@@ -320,6 +320,6 @@ fn positive(length: f64) -> bool {
     length.is_finite() && length > 0.0
 }
 
-fn check(holds: bool, key: &'static str, what: impl FnOnce() -> String) -> Result<(), ViewError> {
+pub(crate) fn check(holds: bool, key: &'static str, what: impl FnOnce() -> String) -> Result<(), ViewError> {
     if holds { Ok(()) } else { Err(ViewError::new(key, what())) }
 }
