@@ -9,6 +9,8 @@ pub enum GpuError {
     NoAdapter,
     #[error("no graphics adapter is named like `{wanted}`; found: {found}")]
     NoSuchAdapter { wanted: String, found: String },
+    #[error("graphics adapter {adapter} cannot render: {what}; choose another one or update its driver")]
+    TooWeak { adapter: String, what: String },
     #[error("adapter {adapter} refuses a device: {reason}")]
     NoDevice { adapter: String, reason: String },
 }

@@ -2,6 +2,7 @@
 
 mod buffer;
 mod edits;
+mod needs;
 mod pipeline;
 mod timing;
 #[cfg(test)]
@@ -65,7 +66,7 @@ impl Gpu {
     async fn open(options: &GpuOptions) -> Result<Gpu, GpuError> {
         let adapter = match (&options.adapter, &options.preferred) {
             (None, Some(preferred)) => match find_adapter(Some(preferred)).await {
-                Err(GpuError::NoSuchAdapter { .. }) => find_adapter(None).await?,
+                Err(GpuError::NoSuchAdapter { .. } | GpuError::TooWeak { .. }) => find_adapter(None).await?,
                 found => found?,
             },
             (wanted, _) => find_adapter(wanted.as_deref()).await?,
@@ -101,7 +102,8 @@ impl Gpu {
     pub fn adapters() -> Vec<String> {
         let instance = instance(wgpu::Backends::PRIMARY);
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
-        let mut names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+        let able = adapters.iter().filter(|adapter| needs::lacking(&adapter.limits()).is_none());
+        let mut names: Vec<String> = able.map(|adapter| adapter.get_info().name).collect();
         let mut known = std::collections::HashSet::new();
         names.retain(|name| known.insert(name.clone()));
         names
@@ -175,21 +177,20 @@ async fn find_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
 
 async fn find_adapter_of(backends: wgpu::Backends, wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     let instance = instance(backends);
-    let Some(wanted) = wanted else {
+    if wanted.is_none() {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()
         };
-        return instance.request_adapter(&options).await.map_err(|_| GpuError::NoAdapter);
-    };
-    let adapters = instance.enumerate_adapters(backends).await;
-    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
-    let matches = |name: &String| name.to_lowercase().contains(&wanted.to_lowercase());
-    match names.iter().position(matches) {
-        Some(index) => Ok(adapters.into_iter().nth(index).expect("one adapter a name")),
-        None if names.is_empty() => Err(GpuError::NoAdapter),
-        None => Err(GpuError::NoSuchAdapter { wanted: wanted.to_owned(), found: names.join(", ") }),
+        let fastest = instance.request_adapter(&options).await.map_err(|_| GpuError::NoAdapter)?;
+        if needs::lacking(&fastest.limits()).is_none() {
+            return Ok(fastest);
+        }
     }
+    let mut adapters = instance.enumerate_adapters(backends).await;
+    let described = |adapter: &wgpu::Adapter| (adapter.get_info().name, adapter.limits());
+    let chosen = needs::choose(&adapters.iter().map(described).collect::<Vec<_>>(), wanted)?;
+    Ok(adapters.swap_remove(chosen))
 }
 
 fn instance(backends: wgpu::Backends) -> wgpu::Instance {

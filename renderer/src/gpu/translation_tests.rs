@@ -6,6 +6,7 @@ use naga::back::{hlsl, msl, pipeline_constants};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ShaderStage};
 
+use super::needs::{STORAGE_BUFFERS, WORKGROUP_BYTES, WORKGROUP_SIZE};
 use super::pipeline::{Access, PipelineDescription};
 use super::{Gpu, GpuOptions};
 use crate::kernel::Kernel;
@@ -16,9 +17,9 @@ use crate::stages::cast::Cast;
 use crate::stages::object_space;
 use crate::stages::shared::Fields;
 
-/// Argument slots for buffers that Metal has (its feature set tables), less the one in which wgpu passes
-/// the lengths of the others.
-const SLOTS_OF_METAL: usize = 31 - 1;
+/// Argument slots for buffers that Metal has (its feature set tables), less those that wgpu keeps: one for
+/// the lengths of the others, and one for immediates.
+const SLOTS_OF_METAL: usize = 31 - 2;
 
 /// What a pipeline was made of.
 struct Made {
@@ -27,6 +28,7 @@ struct Made {
     entry_point: String,
     constants: Vec<(String, f64)>,
     buffers: usize,
+    storage_buffers: usize,
 }
 
 thread_local! {
@@ -36,13 +38,15 @@ thread_local! {
 /// Takes note of a pipeline that is made on this thread.
 pub(super) fn note(description: &PipelineDescription, source: &str) {
     let constants = description.constants.iter().map(|(name, value)| ((*name).to_owned(), *value));
-    let buffers = description.bindings.iter().filter(|access| **access != Access::Texture);
+    let count =
+        |counts: fn(Access) -> bool| description.bindings.iter().filter(|access| counts(**access)).count();
     let made = Made {
         label: description.label,
         source: source.to_owned(),
         entry_point: description.entry_point.to_owned(),
         constants: constants.collect(),
-        buffers: buffers.count(),
+        buffers: count(|access| access != Access::Texture),
+        storage_buffers: count(|access| matches!(access, Access::Read | Access::Write)),
     };
     MADE.with_borrow_mut(|all| all.push(made));
 }
@@ -58,6 +62,18 @@ impl Made {
         let entry_point = Some((ShaderStage::Compute, self.entry_point.as_str()));
         let settled = pipeline_constants::process_overrides(&module, &info, entry_point, &constants).unwrap();
         (settled.0.into_owned(), settled.1.into_owned())
+    }
+
+    /// Invocations of a workgroup, and bytes that they share.
+    fn workgroup(&self, module: &Module, info: &ModuleInfo) -> [u32; 2] {
+        let number = module.entry_points.iter().position(|entry| entry.name == self.entry_point).unwrap();
+        let uses = info.get_entry_point(number);
+        let shared = module.global_variables.iter().filter(|(handle, variable)| {
+            variable.space == naga::AddressSpace::WorkGroup && !uses[*handle].is_empty()
+        });
+        let bytes = |ty| module.types[ty].inner.size(module.to_ctx()).next_multiple_of(16);
+        let size = module.entry_points[number].workgroup_size.iter().product();
+        [size, shared.map(|(_, variable)| bytes(variable.ty)).sum()]
     }
 
     fn in_msl(&self, module: &Module, info: &ModuleInfo) -> Result<String, msl::Error> {
@@ -110,5 +126,11 @@ fn every_shader_translates_for_metal_and_direct3d() {
         }
         let buffers = pipeline.buffers;
         assert!(buffers <= SLOTS_OF_METAL, "{}: {buffers} buffers", pipeline.label);
+        let [size, bytes] = pipeline.workgroup(&module, &info);
+        assert!(size <= WORKGROUP_SIZE, "{}: {size} invocations", pipeline.label);
+        assert!(bytes <= WORKGROUP_BYTES, "{}: {bytes} bytes in a workgroup", pipeline.label);
     }
+    // No adapter is turned away for what no shader needs.
+    let most = made.iter().map(|pipeline| pipeline.storage_buffers).max();
+    assert_eq!(most, Some(STORAGE_BUFFERS as usize));
 }
