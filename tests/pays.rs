@@ -86,6 +86,20 @@ fn cells_tell_how_they_were_sampled() {
     assert!(classes.contains(&CellClass::SuperPixel) && has_budget, "{classes:?}");
 }
 
+/// A bundle is cast anew where its tile has given way to another one: as it was in the picture.
+#[test]
+fn a_bundle_of_several_tiles_tells_how_it_was_sampled() {
+    let memory = Some(6 << 20);
+    let mut renderer = open(&GpuOptions { memory, ..GpuOptions::default() });
+    for (scene, pays) in [(noisy(), false), (smooth(), true)] {
+        let mut scene = scene;
+        (scene.view.image.width, scene.view.image.height) = (400, 352);
+        let (classes, has_budget) = inspected(&mut renderer, &prepare(&scene));
+        assert_eq!(classes != [CellClass::Full], pays, "{classes:?}");
+        assert_eq!(has_budget, pays);
+    }
+}
+
 #[test]
 fn a_picture_does_not_depend_on_those_before() {
     // Of the same particles: in so narrow a tolerance all is sampled.

@@ -119,7 +119,7 @@ impl Renderer {
             progress,
             &mut picture,
             &mut |renderer, job, tile, grid, part, picture| {
-                renderer.cast_tile(job, tile, grid, &mut |share| part(colours * share), picture)?;
+                renderer.cast_tile(job, tile, grid, None, &mut |share| part(colours * share), picture)?;
                 if let Some(charged) = &mut charged
                     && renderer.adapted
                 {

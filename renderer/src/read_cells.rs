@@ -13,7 +13,7 @@ use crate::cell_map::{
 use crate::error::RenderError;
 use crate::picture::Picture;
 use crate::plan::{self, Tile};
-use crate::renderer::{Progress, Renderer};
+use crate::renderer::{CastTile, Progress, Renderer};
 use crate::sampling::Bound;
 use crate::scene::Scene;
 use crate::stages::adapt::CellBounds;
@@ -78,7 +78,8 @@ impl Renderer {
         Ok(self.is_held(&job).then_some((job, tile)))
     }
 
-    /// Casts one bundle, a tile of its own or several behind one another.
+    /// Casts one bundle, a tile of its own or several behind one another: the layers of each tile of the last
+    /// picture, sampled as that was, where it is of this scene.
     fn cast_bundle(
         &mut self,
         scene: &Scene,
@@ -88,17 +89,30 @@ impl Renderer {
         let job = self.begin(scene)?;
         let mut detail = blank(&job, bundle);
         let mut scratch = self.blank(scene, &job.slices);
-        let mut todo = vec![Tile { first: bundle, count: [1, 1], first_layer: 0, layers: detail.layers }];
-        while let Some(tile) = todo.pop() {
+        let mut todo = self.columns_of(scene, bundle);
+        if todo.is_empty() {
+            todo.push((Tile { first: bundle, count: [1, 1], first_layer: 0, layers: detail.layers }, None));
+        }
+        while let Some((tile, pays)) = todo.pop() {
             match self.prepare_tile(&job, &tile, &mut Milliseconds::default())? {
                 Ok(size) => {
-                    self.cast_tile(&job, &tile, size, progress, &mut scratch)?;
+                    self.cast_tile(&job, &tile, size, pays, progress, &mut scratch)?;
                     self.read_detail(&job, &tile, bundle, &mut detail)?;
                 }
-                Err(too_large) => todo.extend(self.halves(&tile, too_large)?),
+                Err(too_large) => todo.extend(self.halves(&tile, too_large)?.map(|half| (half, pays))),
             }
         }
         Ok(detail)
+    }
+
+    /// The parts of a bundle that were cast in one tile of the last picture, the first one at the end, and
+    /// whether they were sampled as an analysis chose.
+    fn columns_of(&self, scene: &Scene, bundle: [u32; 2]) -> Vec<(Tile, Option<bool>)> {
+        let holds =
+            |tile: &Tile| (0..2).all(|i| (tile.first[i]..tile.first[i] + tile.count[i]).contains(&bundle[i]));
+        let column =
+            |cast: &CastTile| (Tile { first: bundle, count: [1, 1], ..cast.tile }, Some(cast.adapted));
+        self.tiles_of(scene).iter().rev().filter(|cast| holds(&cast.tile)).map(column).collect()
     }
 
     /// Reads what became of the cells of `tile`, which is on the device.

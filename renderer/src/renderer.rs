@@ -10,7 +10,7 @@ use crate::gpu::{Buffer, Gpu, Timing};
 use crate::kernel::Kernel;
 use crate::pace::Pace;
 use crate::picture::Picture;
-use crate::plan::{self, TileLimits};
+use crate::plan::{self, Tile, TileLimits};
 use crate::sampling::{Sampling, Without};
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
@@ -65,7 +65,24 @@ pub struct Renderer {
     /// Whether the bounds of its cells do not all fit the device, and those of a submission take the place of
     /// those of the one before.
     pub(crate) recycles_bounds: bool,
-    last: Option<(Geometry, Shading, Picture)>,
+    /// The tiles of the picture that is made, in the order of casting.
+    cast_tiles: Vec<CastTile>,
+    last: Option<Last>,
+}
+
+/// The last picture, what it is of, and how it came about.
+struct Last {
+    geometry: Geometry,
+    shading: Shading,
+    picture: Picture,
+    tiles: Vec<CastTile>,
+}
+
+/// A tile, and whether it was sampled as an analysis chose, and not in full.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CastTile {
+    pub tile: Tile,
+    pub adapted: bool,
 }
 
 /// How large the grid of a tile is.
@@ -128,6 +145,7 @@ impl Renderer {
             analysed: None,
             adapted: false,
             recycles_bounds: false,
+            cast_tiles: Vec::new(),
             last: None,
             gpu,
         };
@@ -160,17 +178,24 @@ impl Renderer {
 
     /// The last picture, where it is of this very scene.
     pub(crate) fn known_picture(&self, scene: &Scene) -> Option<Picture> {
-        let (_, _, picture) = self.last.as_ref().filter(|_| self.knows(scene))?;
-        let mut picture = picture.clone();
+        let mut picture = self.last_of(scene)?.picture.clone();
         picture.stats.milliseconds = Milliseconds::default();
         Some(picture)
     }
 
     /// Whether the last picture is of this very scene.
     pub(crate) fn knows(&self, scene: &Scene) -> bool {
-        self.last.as_ref().is_some_and(|(geometry, shading, _)| {
-            *geometry == Geometry::of(scene) && *shading == Shading::of(scene)
-        })
+        self.last_of(scene).is_some()
+    }
+
+    fn last_of(&self, scene: &Scene) -> Option<&Last> {
+        let of = |last: &&Last| last.geometry == Geometry::of(scene) && last.shading == Shading::of(scene);
+        self.last.as_ref().filter(of)
+    }
+
+    /// The tiles of the last picture, where it is of this very scene.
+    pub(crate) fn tiles_of(&self, scene: &Scene) -> &[CastTile] {
+        self.last_of(scene).map_or(&[], |last| &last.tiles)
     }
 
     /// Renders, and puts what became of the cells into the map that is given.
@@ -180,12 +205,15 @@ impl Renderer {
         progress: &mut Progress,
         cells: Option<&mut CellMap>,
     ) -> Result<Picture, RenderError> {
+        self.cast_tiles.clear();
         let result = self.render_stale(scene, progress, cells);
         if result.is_err() {
             self.forget();
         }
         let picture = result?;
-        self.last = Some((Geometry::of(scene), Shading::of(scene), picture.clone()));
+        let (geometry, shading) = (Geometry::of(scene), Shading::of(scene));
+        let tiles = std::mem::take(&mut self.cast_tiles);
+        self.last = Some(Last { geometry, shading, picture: picture.clone(), tiles });
         Ok(picture)
     }
 
@@ -238,7 +266,8 @@ impl Renderer {
         let tiles = plan::tiles(Renderer::bundles(job.scene), job.slices.count, job.limits);
         job.only_tile = job.resident && tiles.len() == 1;
         self.each_tile(job, tiles, progress, picture, &mut |renderer, job, tile, size, progress, picture| {
-            renderer.cast_tile(job, tile, size, progress, picture)?;
+            renderer.cast_tile(job, tile, size, None, progress, picture)?;
+            renderer.cast_tiles.push(CastTile { tile: *tile, adapted: renderer.adapted });
             match &mut cells_wanted {
                 Some(map) => renderer.read_tile(tile, map),
                 None => Ok(()),

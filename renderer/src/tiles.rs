@@ -204,22 +204,24 @@ impl Renderer {
         self.submit(encoder, times)
     }
 
-    /// Casts the rays of `tile`, sampled as its budget allows, and puts its pixels into the picture.
+    /// Casts the rays of `tile`, sampled as its budget allows, and puts its pixels into the picture. `pays`:
+    /// whether an analysis does, where that is known.
     pub(crate) fn cast_tile(
         &mut self,
         job: &Job,
         tile: &Tile,
         size: GridSize,
+        pays: Option<bool>,
         progress: &mut Progress,
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         self.cast.prepare(&self.gpu, job.scene.kernel, job.scene.quantity.fields());
         self.cast.reserve(&self.gpu, tile)?;
-        let has_budget = budget_of(job, tile).is_some();
+        let has_budget = budget_of(job, tile).is_some() && pays != Some(false);
         if has_budget {
             self.prepare_analysis(job, tile, size)?;
         }
-        self.adapted = has_budget && self.analysis_pays(job, tile, progress, picture)?;
+        self.adapted = has_budget && (pays.is_some() || self.analysis_pays(job, tile, progress, picture)?);
         self.clear_counters();
         self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
