@@ -31,6 +31,8 @@ const BUCKETS: usize = 256;
 pub(crate) struct TransferTables {
     pub nodes: wgpu::TextureView,
     pub buckets: Buffer,
+    /// The function that they hold.
+    held: Option<TransferFunction>,
 }
 
 impl TransferTables {
@@ -38,10 +40,16 @@ impl TransferTables {
         TransferTables {
             nodes: node_texture(gpu, [1, 1]).create_view(&Default::default()),
             buckets: Buffer::storage(gpu, "transfer buckets", 4),
+            held: None,
         }
     }
 
+    /// Brings the function to the device where it is not there yet.
     pub(crate) fn write(&mut self, gpu: &Gpu, transfer: &TransferFunction) -> Result<(), RenderError> {
+        if self.held.as_ref() == Some(transfer) {
+            return Ok(());
+        }
+        self.held = None;
         let nodes = nodes(transfer);
         self.buckets.write(gpu, &buckets(&nodes))?;
         let texels = texels(&nodes);
@@ -59,6 +67,9 @@ impl TransferTables {
             texture.size(),
         );
         self.nodes = texture.create_view(&Default::default());
+        // A texture that could not be had is not to be kept.
+        gpu.check()?;
+        self.held = Some(transfer.clone());
         Ok(())
     }
 }
