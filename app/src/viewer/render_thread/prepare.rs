@@ -125,7 +125,8 @@ fn cut(scene: &Scene, view: &View) -> [Option<f64>; 2] {
         return [None; 2];
     };
     let aspect = f64::from(scene.width) / f64::from(scene.height);
-    let Some([nearest, farthest]) = scene.particles.depths_in_picture(&scene.camera, aspect) else {
+    let Some([nearest, farthest]) = scene.particles.depths_in_picture(&scene.quantity, &scene.camera, aspect)
+    else {
         return [None; 2];
     };
     let nearest = nearest.max(CLOSEST * farthest);
