@@ -27,7 +27,7 @@ impl Kernel {
         }
     }
 
-    /// The number by which the shaders know it (`shaders/kernel.wgsl`).
+    /// The number by which the shaders know it (`kernel.wgsl`).
     pub(crate) fn code(self) -> u32 {
         self as u32
     }

@@ -47,7 +47,7 @@ pub(crate) fn place<T: Send>(
     });
 }
 
-/// Lane of a pixel inside its bundle: a Morton curve, as `place_in_bundle` of `cast.wgsl`.
+/// Lane of a pixel inside its bundle: a Morton curve, as `place_in_bundle` of `bundle.wgsl`.
 pub(crate) fn lane_of(x: usize, y: usize) -> usize {
     let spread = |i: usize| (i & 1) | (i & 2) << 1 | (i & 4) << 2;
     spread(x) | spread(y) << 1

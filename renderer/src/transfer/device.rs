@@ -25,8 +25,8 @@ type Node<const N: usize> = (f32, [f32; N]);
 const GRACE: f64 = 1.0 / 262_144.0;
 
 impl TransferFunction {
-    /// The function of `view` as the device is to have it. `placements`: of what decides the colour, and of
-    /// what decides the opacity. Where those are two fields, only the colours know values outside.
+    /// The function of `view` as the device is to have it, for `quantity`; `outside`: what is shown below and
+    /// above its range. Where colour and opacity are of two fields, only the colours know values outside.
     ///
     /// # Errors
     /// Names the key of what is out of range, or where there are too many points.
