@@ -6,6 +6,7 @@ use reference::Particle;
 use reference::device::{prepare, render, shared};
 use reference::floor;
 use reference::grid::{may, must};
+use reference::guarantee::prepare_anyway;
 use reference::neighbours::Neighbours;
 use reference::scenes::{self, Scene, Shape, grey};
 use reference::setup::Setup;
@@ -105,4 +106,24 @@ fn a_counting_renderer_knows_which_evaluations_were_inside() {
     // A sample on the edge of a support may fall to either side.
     assert!(counted.inside.abs_diff(inside) <= inside / 10_000 + 1, "{} of {inside}", counted.inside);
     assert_eq!((counted.done, plain.evaluations.inside), (plain.evaluations.done, 0));
+}
+
+#[test]
+fn the_analysis_computes_two_weights_of_a_particle_for_each_brick() {
+    for count in [1, 2, 17, 40] {
+        let mut scene = scenes::plain(141, 8, 8);
+        // A single cell, all of which every particle reaches.
+        let camera = scene.view.camera.as_mut().expect("plain scenes have a camera");
+        let middle = (camera.target - camera.eye).length();
+        (camera.near, camera.far) = (Some(0.99 * middle), Some(1.01 * middle));
+        scene.view.transfer.points = vec![grey(0.0, 0.5, 0.1), grey(1.0, 0.5, 0.2)];
+        scene.view.sampling.tolerance = Some(0.01);
+        scene.particles.truncate(count);
+        for particle in &mut scene.particles {
+            (particle.position, particle.support_radius) = (0.01 * particle.position, 10.0);
+        }
+        let stats = render(&mut shared(), &prepare_anyway(&scene)).stats;
+        assert_eq!((stats.cells, stats.pairs), (1, count as u64));
+        assert_eq!(stats.evaluations.bounds, 2 * 64 * count as u64);
+    }
 }

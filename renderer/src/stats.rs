@@ -117,7 +117,7 @@ pub struct Evaluations {
     pub full: u64,
     /// What this picture computed, the analysis counted in.
     pub done: u64,
-    /// The part of the analysis: an expansion of one particle in one brick counts as two.
+    /// The part of the analysis, which computes two weights of a particle for each brick of its cells.
     #[serde(skip_serializing_if = "is_zero")]
     pub bounds: u64,
     /// Those of `done` with a weight above zero; 0 unless the renderer counts them.

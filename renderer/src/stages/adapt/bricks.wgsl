@@ -73,6 +73,9 @@ struct Share {
     reached: vec4<bool>,
 }
 
+// Kernel weights that it takes: in each brick one in the middle, and one where it is farthest from the particle.
+const EVALUATIONS_OF_SHARE: u32 = 2u * BRICK_DEPTH;
+
 // The share of a particle (place relative to the cell, and 1/h²) of some weight.
 fn share_of(column: Column, ball: vec4<f32>, weight: f32) -> Share {
     let from_axis = ball.xyz - vec3(column.from_axis, 0.0);
@@ -104,11 +107,6 @@ fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
     (*expansion).rest_qq += q * q * share.left_out;
     (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), share.reached);
     (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), share.reached);
-}
-
-// How many bricks a particle may reach.
-fn bricks_reached(share: Share) -> u32 {
-    return u32(dot(select(vec4(0.0), vec4(1.0), share.reached), vec4(1.0)));
 }
 
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.

@@ -6,11 +6,10 @@ fn no_expansions() -> Expansions {
     return no_expansion();
 }
 
-// Adds a particle; returns how many bricks it may reach.
-fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) -> u32 {
+// Adds a particle.
+fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) {
     let share = share_of(column, ball, load.x);
     add_share(expansion, share, load.y);
-    return bricks_reached(share);
 }
 
 fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -> FieldValues {

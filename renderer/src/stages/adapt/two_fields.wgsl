@@ -15,8 +15,8 @@ fn no_expansions() -> Expansions {
     return Expansions(none, none.charge, none.rest_q, none.rest_qq, none.low, none.high);
 }
 
-// Adds a particle; returns how many bricks it may reach.
-fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) -> u32 {
+// Adds a particle.
+fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) {
     let share = share_of(column, ball, load.x);
     var colour = (*expansion).colour;
     add_share(&colour, share, load.y);
@@ -27,7 +27,6 @@ fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4
     (*expansion).rest_qq += q * q * share.left_out;
     (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), share.reached);
     (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), share.reached);
-    return bricks_reached(share);
 }
 
 fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -> FieldValues {

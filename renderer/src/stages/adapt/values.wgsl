@@ -66,8 +66,9 @@ fn expand(
         let loaded = min(COLUMNS, max(end, cell.first + base) - (cell.first + base));
         for (var i = 0u; i < loaded; i += 1u) {
             let particle = group_lane + i;
-            evaluations += add_particle(&expansion, column, balls[particle], loads[particle]);
+            add_particle(&expansion, column, balls[particle], loads[particle]);
         }
+        evaluations += EVALUATIONS_OF_SHARE * loaded;
         workgroupBarrier();
     }
     add_to_tally(0u, evaluations);
@@ -109,6 +110,8 @@ fn values_in_cell(
             entry.slot = slots[number] + 2u;
             bricks[slots[number] * COLUMNS + lane % COLUMNS] = values;
         }
+        // All lanes have added to the tally.
+        workgroupBarrier();
         if lane == 0u {
             settle_tally(0u, EVALUATIONS_OF_BOUNDS);
         }
