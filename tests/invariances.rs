@@ -3,11 +3,11 @@
 
 use glam::DVec3;
 use reference::compare::compare;
-use reference::device::{assert_alike, picture};
+use reference::device::{assert_alike, open, picture, prepare, render};
 use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey};
-use renderer::{ControlPoint, Kernel};
+use renderer::{ControlPoint, GpuOptions, Kernel, OpacityView, Scale};
 
 /// Largest change of any channel.
 const LIMIT: f64 = 1e-4;
@@ -97,6 +97,66 @@ fn the_order_of_the_particles() {
         shuffled.particles.reverse();
         assert_unchanged(&scene.name, &before, &picture(&shuffled));
     }
+}
+
+/// On a logarithmic scale, small values of both fields on one side and large ones on the other.
+fn over_decades(decades: i32) -> Scene {
+    let mut scene = scenes::plain(20, 33, 21);
+    let least = 10.0_f64.powi(-decades);
+    for particle in &mut scene.particles {
+        let small = particle.position.x < 0.0;
+        particle.quantity = if small { least * (3.0 + particle.position.y) } else { 1.0 };
+        particle.opacity = if small { least * (3.0 - particle.position.y) } else { 1.0 };
+    }
+    scene.name += &format!(" over {decades} decades");
+    (scene.view.quantity.range, scene.view.quantity.scale) = (Some([least, 1.0]), Scale::Log);
+    scene.view.sampling.tolerance = None;
+    scene
+}
+
+/// The left becomes the right.
+fn mirrored(scene: &Scene) -> Scene {
+    let mut mirrored = scene.clone();
+    mirrored.particles.iter_mut().for_each(|particle| particle.position.x *= -1.0);
+    mirrored
+}
+
+fn mirror_image(image: &Image<f32>) -> Image<f32> {
+    let mut mirrored = image.clone();
+    mirrored.pixels.chunks_mut(image.width as usize).for_each(<[_]>::reverse);
+    mirrored
+}
+
+#[test]
+fn the_order_of_the_particles_on_a_logarithmic_scale() {
+    let mut random = Random::new(21);
+    for scene in [6, 7, 8].map(over_decades) {
+        let mut two_fields = scene.clone();
+        two_fields.view.quantity.opacity = Some(OpacityView {
+            range: scene.view.quantity.range,
+            scale: Scale::Log,
+            ..OpacityView::default()
+        });
+        for scene in [scene, two_fields] {
+            let before = picture(&scene);
+            let mut shuffled = scene.clone();
+            random.shuffle(&mut shuffled.particles);
+            assert_unchanged(&scene.name, &before, &picture(&shuffled));
+            assert_unchanged(&scene.name, &before, &mirror_image(&picture(&mirrored(&scene))));
+        }
+    }
+}
+
+#[test]
+fn sums_relative_to_large_values_are_noticed() {
+    let from = "(frame.logarithmic & 1u) != 0u".to_owned();
+    let shader_edits = vec![(from, "false".to_owned())];
+    let mut renderer = open(&GpuOptions { shader_edits, ..GpuOptions::default() });
+    let scene = over_decades(7);
+    let [before, after] =
+        [scene.clone(), mirrored(&scene)].map(|scene| Image::from(&render(&mut renderer, &prepare(&scene))));
+    let comparison = compare(&before, &mirror_image(&after));
+    assert!(comparison.max > LIMIT, "{comparison}");
 }
 
 #[test]

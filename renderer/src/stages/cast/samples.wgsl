@@ -19,9 +19,10 @@ var<workgroup> middles: array<vec4<f32>, LANES>;
 var<private> on_slope: array<Charges, 4>;
 
 // What the quantities of a cell are relative to: some particle's, but never an outlier's, against which
-// the others would vanish.
+// the others would vanish. On a logarithmic scale the large ones are outliers to the small ones, so there
+// it is 0.
 fn reference_of(first: u32) -> Quantity {
-    return in_range(quantities[pairs[first]]);
+    return zero_on_log_scale(in_range(quantities[pairs[first]]));
 }
 
 // Brings up to 64 particles of the cell, one a lane, into shared memory.

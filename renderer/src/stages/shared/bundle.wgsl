@@ -102,7 +102,7 @@ struct Particle {
     // Place relative to the middle of the cell, in units of that middle's depth, and 1/h².
     ball: vec4<f32>,
     weight: f32,
-    // Relative to the cell's reference: where all particles have the same one, sums are exact.
+    // Relative to the cell's reference: where that is what all particles have, sums are exact.
     quantity: Quantity,
 }
 

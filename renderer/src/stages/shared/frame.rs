@@ -33,7 +33,7 @@ pub(crate) struct FrameUniform {
     pub pivot_depth: f32,
     pub near_offset: f32,
     pub far_offset: f32,
-    pub padding: f32,
+    pub logarithmic: u32,
     pub sample_offset: [f32; CELL_SLICES as usize],
     pub slab_depth: [f32; CELL_SLICES as usize],
     pub slab_edge: [f32; CELL_SLICES as usize + 4],
@@ -70,7 +70,7 @@ impl FrameUniform {
             pivot_depth: (pivot_depth / unit) as f32,
             near_offset: ((camera.near - pivot_depth) / unit) as f32,
             far_offset: ((camera.far - pivot_depth) / unit) as f32,
-            padding: 0.0,
+            logarithmic: logarithmic(scene),
             sample_offset: std::array::from_fn(|k| (from_middle(k as f64 + 0.5) * step).exp_m1() as f32),
             slab_depth: std::array::from_fn(|k| {
                 ((from_middle(k as f64) * step).exp() * step.exp_m1()) as f32
@@ -95,6 +95,13 @@ pub(crate) fn radius_floor(scene: &Scene, slices: &Slices) -> f64 {
 /// Slope between neighbouring pixel centres.
 pub(crate) fn pitch(scene: &Scene) -> f64 {
     2.0 * scene.camera.tan_half_fov / f64::from(scene.height)
+}
+
+/// Bits of the fields on a logarithmic scale.
+fn logarithmic(scene: &Scene) -> u32 {
+    let [colour, opacity] =
+        scene.quantity.placements().map(|placement| u32::from(placement.log_width().is_some()));
+    colour | opacity << 1
 }
 
 fn single(v: DVec3) -> [f32; 3] {
@@ -155,7 +162,7 @@ mod tests {
             pivot_depth,
             near_offset,
             far_offset,
-            padding,
+            logarithmic,
             sample_offset,
             slab_depth,
             slab_edge

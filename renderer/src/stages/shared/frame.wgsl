@@ -25,7 +25,8 @@ struct Frame {
     pivot_depth: f32,
     near_offset: f32,
     far_offset: f32,
-    padding: f32,
+    // Fields on a logarithmic scale: bit 0 for that of the colour, bit 1 for that of the opacity.
+    logarithmic: u32,
     // Depth of the cell's 16 samples relative to its middle, in units of the middle's depth.
     sample_offset: array<vec4<f32>, 4>,
     // Depth of the cell's 16 slabs, in units of the depth of the cell's middle.

@@ -15,6 +15,11 @@ fn in_range(quantity: Quantity) -> Quantity {
     return clamp(quantity, 0.0, 1.0);
 }
 
+// The quantity, or 0 on a logarithmic scale.
+fn zero_on_log_scale(quantity: Quantity) -> Quantity {
+    return select(quantity, 0.0, (frame.logarithmic & 1u) != 0u);
+}
+
 // What a load adds at four samples with these kernel values.
 fn charges_of(load: Load, k: vec4<f32>) -> Charges {
     return load.y * k;

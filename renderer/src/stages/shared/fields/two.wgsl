@@ -16,6 +16,11 @@ fn in_range(quantity: Quantity) -> Quantity {
     return clamp(quantity, vec2(0.0), vec2(1.0));
 }
 
+// The quantities, 0 in place of those on a logarithmic scale.
+fn zero_on_log_scale(quantity: Quantity) -> Quantity {
+    return select(quantity, vec2(0.0), (vec2(frame.logarithmic) & vec2(1u, 2u)) != vec2(0u));
+}
+
 // What a load adds at four samples with these kernel values.
 fn charges_of(load: Load, k: vec4<f32>) -> Charges {
     return Charges(load.y * k, load.z * k);
