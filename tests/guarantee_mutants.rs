@@ -68,13 +68,16 @@ const MUTANTS: [Mutant; 19] = [
     Mutant { what: "half as much again as the budget", edits: &[("chunk.budget", "(1.5 * chunk.budget)")] },
     Mutant {
         what: "a slope is taken for exact",
-        edits: &[("let all_off = min(off / least_weight + rounding, vec4(2.0))", "let all_off = vec4(0.0)")],
+        edits: &[(
+            "let all_off = min(off / least_weight + rounding, vec4(WIDEST))",
+            "let all_off = vec4(0.0)",
+        )],
     },
     Mutant {
         what: "a slope falls where it rises",
         edits: &[(
-            "dot(unpack2x16float(values.across[brick]), side)",
-            "dot(unpack2x16float(values.across[brick]), -side)",
+            "dot(unpack_slope(values.across[brick]), side)",
+            "dot(unpack_slope(values.across[brick]), -side)",
         )],
     },
     Mutant {

@@ -116,10 +116,17 @@ fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f3
     return known + remainder(e, lambda);
 }
 
-// The upper bound of Σ |q − λ|·m.
+// Relative error of a sum of some hundred terms of f32, to the sum of their magnitudes.
+const SUM_ROUNDING: f32 = 4e-6;
+// The square of a quantity, times a sum of weights, is a number. (Weights are at most 10¹⁵.)
+const LARGEST_QUANTITY: f32 = 1e8;
+
+// The upper bound of Σ |q − λ|·m. Where all q are close to λ its parts cancel, and what is left may be less than
+// their rounding.
 fn remainder(e: Expansion, lambda: vec4<f32>) -> vec4<f32> {
     let rest_qq = e.rest_qq - lambda * (2.0 * e.rest_q - lambda * e.rest);
-    return sqrt(max(e.rest * rest_qq, vec4(0.0)));
+    let rounding = SUM_ROUNDING * (e.rest_qq + abs(lambda) * (2.0 * abs(e.rest_q) + abs(lambda) * e.rest));
+    return sqrt(e.rest) * sqrt(max(rest_qq, vec4(0.0)) + rounding);
 }
 
 // An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
@@ -134,29 +141,34 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
     return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
 }
 
-// Well within what half floats hold.
-const STEEP: f32 = 1e4;
+// Well within what half floats hold, as they are kept: no brick that is as steep follows its slope.
+const STEEP: f32 = 15.0;
 
 // How the quantity runs through bricks in which Σ w is at least `least_weight`, and how far it is from that:
 // Q − mean = N/Σw, where only ∇N·δ and the Σw of the middle are taken.
 fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column, least_weight: vec4<f32>) {
     let mean = e.charge.value / e.weight.value;
     let relative = less(e.charge, mean, e.weight);
-    // Anything as steep as that is `off` by more than the whole range.
     let right = clamp(column.half_width * relative.a / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let up = clamp(column.half_width * relative.b / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let back = clamp(column.half_depth * relative.s / e.weight.value, vec4(-STEEP), vec4(STEEP));
+    let too_steep = max(max(abs(right), abs(up)), abs(back)) >= vec4(STEEP);
     let rise = abs(right) + abs(up) + abs(back);
     let weight_off = swing(e.weight, column) + sag_either_way(e.weight, column) + e.rest;
     let off = rise * weight_off + sag_either_way(relative, column) + remainder(e, mean);
     // Half floats have 11 bits.
-    let rounding = 0.001 * rise + 4e-6 * max(abs(e.low), abs(e.high)) + 4e-6;
-    let all_off = min(off / least_weight + rounding, vec4(2.0)) * 1.001;
+    let rounding = 0.001 * rise + sum_rounding(e, least_weight) + 4e-6;
+    let all_off = min(off / least_weight + rounding, vec4(WIDEST)) * 1.001;
     (*values).middle += mean;
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
-        (*values).across[i] = pack2x16float(vec2(right[i], up[i]));
-        (*values).along[i] = pack2x16float(vec2(back[i], all_off[i]));
+        (*values).across[i] = pack_slope(vec2(right[i], up[i]));
+        (*values).along[i] = pack_slope(vec2(back[i], select(all_off[i], WIDEST, too_steep[i])));
     }
+}
+
+// By how much the rounding of the sums may move a bound of Q.
+fn sum_rounding(e: Expansion, least_weight: vec4<f32>) -> vec4<f32> {
+    return SUM_ROUNDING * max(abs(e.low), abs(e.high)) * max(e.weight.value / least_weight, vec4(1.0));
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
@@ -164,9 +176,11 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let known = e.weight.value * (1.0 - 1e-5) - swayed;
     let expanded = select(known, vec4(0.0), EXTREMES_ONLY);
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
-    let covered = least_weight > 1e-4 * e.weight.value;
+    // Beyond, sums of squares may overflow.
+    let sound = max(abs(e.low), abs(e.high)) < vec4(LARGEST_QUANTITY);
+    let covered = sound & (least_weight > 1e-4 * e.weight.value);
     let safe_weight = select(vec4(1.0), least_weight, covered);
-    let rounding = 4e-6 * max(abs(e.low), abs(e.high));
+    let rounding = sum_rounding(e, safe_weight);
     let upper = bound(e, column, safe_weight, 1.0) + rounding;
     let lower = bound(e, column, safe_weight, -1.0) - rounding;
     // Where one of them is no number, the extremes stay.

@@ -44,7 +44,8 @@ pub(crate) struct ColumnValues {
 impl ColumnValues {
     /// How u runs through a brick in which every sample meets a particle.
     pub(crate) fn slope(&self, brick: usize) -> Option<Slope> {
-        let pair = |bits: u32| [0, 16].map(|shift| f16::from_bits((bits >> shift) as u16).to_f32());
+        let half = |bits: u32| f16::from_bits(bits as u16).to_f32() / SLOPE_UNIT;
+        let pair = |bits: u32| [half(bits), half(bits >> 16)];
         let [[right, up], [back, off]] = [self.across[brick], self.along[brick]].map(pair);
         let slope = Slope { middle: self.middle[brick], rise: [right, up, back], off };
         (self.high[brick] >= COVERED).then_some(slope)
@@ -74,6 +75,8 @@ impl Offers {
 
 /// What is added to the upper bound of a brick in which every sample meets a particle.
 pub(crate) const COVERED: f32 = 2.0;
+/// How many times as large slopes are kept: so no half float is less than 2⁻¹⁴ that matters.
+const SLOPE_UNIT: f32 = 4096.0;
 
 #[cfg(test)]
 mod tests {
@@ -82,6 +85,26 @@ mod tests {
     use crate::stages::shared::{BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL};
 
     const OFFERS_WGSL: &str = include_str!("offers.wgsl");
+
+    #[test]
+    fn slopes_are_kept_in_the_unit_of_the_shaders() {
+        assert!(HULL_WGSL.contains(&format!("const SLOPE_UNIT: f32 = {SLOPE_UNIT:?};")));
+        let halves = |low: f32, high: f32| {
+            [low, high].map(|value| f16::from_f32(SLOPE_UNIT * value).to_bits()).map(u32::from)
+        };
+        let packed = |low, high| halves(low, high)[0] | halves(low, high)[1] << 16;
+        let values = ColumnValues {
+            low: [0.0; 4],
+            high: [COVERED; 4],
+            middle: [0.5; 4],
+            across: [packed(0.25, -0.5); 4],
+            along: [packed(15.0, 2.0); 4],
+        };
+        let slope = values.slope(2).expect("the brick is covered");
+        assert_eq!((slope.middle, slope.rise, slope.off), (0.5, [0.25, -0.5, 15.0], 2.0));
+        // What a device may take for 0 is far below what rounding adds.
+        assert!(f32::from(f16::MIN_POSITIVE) / SLOPE_UNIT < 4e-6 / 100.0);
+    }
 
     #[test]
     fn entries_lie_as_the_shader_expects() {

@@ -19,7 +19,7 @@ struct ColumnValues {
     low: vec4<f32>,
     high: vec4<f32>,
     // In the middle; from there to the right and to the upper side, and to the back: pairs of half floats
-    // (pack2x16float). The last pair ends with how far the quantity may be off.
+    // (pack_slope). The last pair ends with how far the quantity may be off.
     middle: vec4<f32>,
     across: vec4<u32>,
     along: vec4<u32>,
@@ -27,6 +27,19 @@ struct ColumnValues {
 
 // Bricks are taken to be larger by so much, for rounding. Bounds and slopes measure with the same brick.
 const SLACK: f32 = 1.0001;
+
+// Slopes are kept so many times as large: where half floats are less than 2⁻¹⁴, devices may take them for 0.
+const SLOPE_UNIT: f32 = 4096.0;
+// No two quantities in [0, 1] are as far apart.
+const WIDEST: f32 = 2.0;
+
+fn pack_slope(pair: vec2<f32>) -> u32 {
+    return pack2x16float(SLOPE_UNIT * pair);
+}
+
+fn unpack_slope(pair: u32) -> vec2<f32> {
+    return unpack2x16float(pair) / SLOPE_UNIT;
+}
 
 fn no_values() -> ColumnValues {
     let none = vec4(EMPTY.x);
@@ -39,8 +52,8 @@ fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
     let side = vec2(select(-1.0, 1.0, (ray & 1u) == 1u), select(1.0, -1.0, (ray & 2u) == 2u));
     let aside = (1.0 + depths) / ((1.0 + depths.w) * SLACK);
     let behind = (2.0 * depths - depths.x - depths.w) / ((depths.w - depths.x) * SLACK);
-    let rise_across = dot(unpack2x16float(values.across[brick]), side);
-    let rise_along = unpack2x16float(values.along[brick]).x;
+    let rise_across = dot(unpack_slope(values.across[brick]), side);
+    let rise_along = unpack_slope(values.along[brick]).x;
     let slope = values.middle[brick] + rise_across * aside + rise_along * behind;
     // Nor is the quantity itself anywhere else.
     let high = select(values.high[brick], values.high[brick] - COVERED, values.high[brick] >= COVERED);

@@ -18,7 +18,7 @@ struct Seen {
 
 fn seen_in(column: FieldValues, brick: u32) -> Seen {
     let values = vec2(column.low[brick], column.high[brick]);
-    return Seen(values, shades_over(values), unpack2x16float(column.along[brick]).y);
+    return Seen(values, shades_over(values), unpack_slope(column.along[brick]).y);
 }
 
 // The quantity at a ray's samples in a brick, by the brick's slope. `ray`: 0 to 3 in the column.

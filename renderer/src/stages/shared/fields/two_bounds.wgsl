@@ -25,8 +25,8 @@ fn seen_in(column: FieldValues, brick: u32) -> Seen {
     let colour = shades_over(vec2(column.colour.low[brick], column.colour.high[brick]));
     let opacity = shades_over(values);
     let off = vec2(
-        unpack2x16float(column.colour.along[brick]).y,
-        unpack2x16float(column.opacity.along[brick]).y,
+        unpack_slope(column.colour.along[brick]).y,
+        unpack_slope(column.opacity.along[brick]).y,
     );
     let range = Extremes(
         vec4(colour.range.low.rgb, opacity.range.low.a),
