@@ -7,7 +7,7 @@ use sphcast::image_file::{self, Pixels};
 
 use crate::files::write_vtk;
 use crate::harness::{Window, binary, missing};
-use crate::system::{assert_same, frames};
+use crate::system::{assert_same, frames, window_over_frames};
 
 /// The pictures that the command line makes of the frames in `folder`, with the view in a file.
 fn rendered(folder: &Path, view: &Path, count: usize) -> Vec<Pixels> {
@@ -30,13 +30,7 @@ fn visible(pixels: &Pixels) -> usize {
 
 #[test]
 fn a_plane_cuts_the_run_open() {
-    if let Some(why) = missing() {
-        eprintln!("skipped: {why}");
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    frames(folder.path());
-    let mut window = Window::open(folder.path(), &[".", "--size", "120x90"]);
+    let Some((folder, mut window)) = window_over_frames(&[".", "--size", "120x90"]) else { return };
     window.key("5");
     window.wait_for_full_picture();
     let (whole, before) = window.save(folder.path());
@@ -66,13 +60,7 @@ fn a_plane_cuts_the_run_open() {
 
 #[test]
 fn a_sequence_is_exported_as_the_command_line_makes_it() {
-    if let Some(why) = missing() {
-        eprintln!("skipped: {why}");
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    frames(folder.path());
-    let mut window = Window::open(folder.path(), &[".", "--size", "60x45"]);
+    let Some((folder, mut window)) = window_over_frames(&[".", "--size", "60x45"]) else { return };
     window.drag("picture", [0.3, 0.5], [0.6, 0.4]);
     window.wait_for_full_picture();
     let (picture, _) = window.save(folder.path());
@@ -92,13 +80,7 @@ fn a_sequence_is_exported_as_the_command_line_makes_it() {
 
 #[test]
 fn a_bookmark_leads_back() {
-    if let Some(why) = missing() {
-        eprintln!("skipped: {why}");
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    frames(folder.path());
-    let mut window = Window::open(folder.path(), &[".", "--size", "120x90"]);
+    let Some((folder, mut window)) = window_over_frames(&[".", "--size", "120x90"]) else { return };
     window.wait_for_full_picture();
     window.key("b");
     let (_, before) = window.save(folder.path());
@@ -200,13 +182,7 @@ fn a_path_of_keyframes_is_exported_as_the_command_line_goes_along_it() {
 
 #[test]
 fn a_camera_goes_through_the_clipboard() {
-    if let Some(why) = missing() {
-        eprintln!("skipped: {why}");
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    frames(folder.path());
-    let mut window = Window::open(folder.path(), &[".", "--size", "60x45"]);
+    let Some((folder, mut window)) = window_over_frames(&[".", "--size", "60x45"]) else { return };
     window.wait_for_full_picture();
     let (_, before) = window.save(folder.path());
     window.key("ctrl+shift+c");

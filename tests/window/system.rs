@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use renderer::View;
+use tempfile::TempDir;
 
 use crate::desktop::eventually;
 use crate::files::write_vtk;
@@ -16,6 +17,18 @@ pub fn frames(folder: &Path) -> [PathBuf; 2] {
         write_vtk(&path, 30, true);
         path
     })
+}
+
+/// A window over these two in a folder of its own; `None`, and why, where no window can be opened.
+pub fn window_over_frames(arguments: &[&str]) -> Option<(TempDir, Window)> {
+    if let Some(why) = missing() {
+        eprintln!("skipped: {why}");
+        return None;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    frames(folder.path());
+    let window = Window::open(folder.path(), arguments);
+    Some((folder, window))
 }
 
 /// Another view than `view`, in a file.
@@ -88,13 +101,7 @@ fn dropped_files_are_opened_and_dropped_views_loaded() {
 
 #[test]
 fn full_screen_and_back() {
-    if let Some(why) = missing() {
-        eprintln!("skipped: {why}");
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    frames(folder.path());
-    let mut window = Window::open(folder.path(), &["."]);
+    let Some((_folder, mut window)) = window_over_frames(&["."]) else { return };
     let desktop = window.desktop();
     for (full, timeline) in [(true, "area timeline 16 750"), (false, "area timeline 16 550")].repeat(2) {
         window.key("F11");
@@ -107,13 +114,7 @@ fn full_screen_and_back() {
 
 #[test]
 fn after_the_loss_of_its_device_the_window_goes_on_as_it_was() {
-    if let Some(why) = missing() {
-        eprintln!("skipped: {why}");
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    frames(folder.path());
-    let mut window = Window::open(folder.path(), &[".", "--size", "120x90"]);
+    let Some((folder, mut window)) = window_over_frames(&[".", "--size", "120x90"]) else { return };
     let desktop = window.desktop();
     window.key("Right");
     window.wait_for("picture frame=1");

@@ -6,6 +6,7 @@ use super::*;
 use crate::frames::Sequence;
 use crate::viewer::Wake;
 use crate::viewer::orbit_camera::Side;
+use crate::viewer::playback::Arrival;
 use crate::viewer::render_thread::prepare::Preparation;
 use crate::viewer::render_thread::{Report, Shown};
 
