@@ -10,7 +10,8 @@ use reference::picture::Image;
 use reference::random::Random;
 use reference::scenes::{self, Scene, Shape, grey};
 use renderer::{
-    Band, BandLayers, GpuOptions, Kernel, Picture, RenderError, Renderer, TooLarge, TransferFunction,
+    Band, BandLayers, Bound, GpuOptions, Kernel, OpacityView, Picture, RenderError, Renderer, TooLarge,
+    TransferFunction,
 };
 
 /// Bytes that a tile may take: from a few tiles to a single bundle a tile.
@@ -164,6 +165,60 @@ fn large_and_small_scenes_in_turn() {
         let mismatch = reference::device::mismatch(&other, &image);
         assert!(mismatch.is_none(), "{}", mismatch.unwrap_or_default());
     }
+}
+
+/// The scene in all the ways that need other arrays than those of the picture before.
+fn kinds(name: &str, scene: &renderer::Scene) -> Vec<(String, renderer::Scene)> {
+    let with = |kind: &str, change: &dyn Fn(&mut renderer::Scene)| {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        (format!("{name}, {kind}"), scene)
+    };
+    vec![
+        with("as it is", &|_| ()),
+        with("the paper's bound", &|scene| scene.sampling.bound = Bound::Paper),
+        with("from another side", &|scene| scene.camera.near *= 1.01),
+        with("in full", &|scene| scene.sampling.tolerance = None),
+    ]
+}
+
+/// Pictures of all kinds one after the other, by one device that is left no time to forget.
+#[test]
+fn all_that_is_held_stays_within_the_memory() {
+    let few = calm(137, 97, 72);
+    let mut many = few.clone();
+    let mut random = Random::new(137);
+    many.particles.extend((0..12_000).map(|_| Particle {
+        position: random.in_cube(),
+        support_radius: 0.02,
+        ..few.particles[0]
+    }));
+    // As many as have half of the memory.
+    many.particles.truncate(9300);
+    let mut two_fields = few.clone();
+    two_fields.view.quantity.opacity =
+        Some(OpacityView { range: Some([0.0, 1.0]), ..OpacityView::default() });
+    let mut scenes = Vec::new();
+    for (name, scene) in [("few", few), ("many", many), ("two fields", two_fields)] {
+        scenes.extend(kinds(name, &prepare_anyway(&scene)));
+    }
+    let memory = 1 << 20;
+    let mut renderer = little(memory);
+    let mut most = 0;
+    let mut holds = |name: &str, held: u64| {
+        assert!(held <= memory, "{held} of {memory} bytes for {name}");
+        most = most.max(held);
+    };
+    // Forwards and backwards, so that each kind follows others that need more and less.
+    for (name, scene) in scenes.iter().chain(scenes.iter().rev()) {
+        holds(name, render(&mut renderer, scene).stats.gpu_bytes);
+    }
+    let layers = BandLayers { depths: true, charges: true };
+    let go_on = |_: f32| ControlFlow::Continue(());
+    let (name, scene) = &scenes[0];
+    let bands = renderer.render_bands(scene, 40, layers, &mut { go_on }, &mut |_| ControlFlow::Continue(()));
+    holds(name, bands.unwrap_or_else(|error| panic!("{error}")).gpu_bytes);
+    assert!(4 * most > 3 * memory, "pictures make use of the memory: {most} of {memory} bytes");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::camera::CELL_SLICES;
 use crate::error::RenderError;
 use crate::pace::Pace;
 use crate::picture::Picture;
-use crate::plan::{self, Tile};
+use crate::plan::{self, Contents, Tile, TileLimits};
 use crate::renderer::{GridSize, Progress, Renderer};
 use crate::stages::object_space::{HashGrid, ObjectSpace};
 use crate::stages::shared::{TileUniform, pivot_depth, radius_floor, spread};
@@ -19,6 +19,9 @@ use crate::tiles::Job;
 const ROUNDS: u32 = 60_000;
 /// Rounds that a sample takes beside those for its particles, with plenty to spare for the search of its cell.
 const ROUNDS_OF_SAMPLE: u32 = 16;
+
+const TOO_LITTLE_MEMORY: &str =
+    "its memory does not hold all particles at once, as sampling in object space needs them";
 
 impl Renderer {
     /// Renders without a grid of cells; the time for the hash grid counts in place of theirs.
@@ -33,6 +36,7 @@ impl Renderer {
         let layers = layers_at_once(&grid)?;
         let camera = &job.scene.camera;
         let pivot = job.scene.particles.to_device(camera.eye + pivot_depth(camera) * camera.forward);
+        self.make_room(job, &grid)?;
         let object_space = ObjectSpace::new(&self.gpu, job.scene, &grid, pivot)?;
         let built = begin.elapsed().as_secs_f64() * 1e3;
         // What is known of cells is written over.
@@ -52,6 +56,17 @@ impl Renderer {
             self.cast_by_places(job, &whole, &object_space, layers, &mut progress, picture)?;
         }
         Ok(())
+    }
+
+    /// Gives back what cells along the rays need and a hash grid does not.
+    fn make_room(&mut self, job: &Job, grid: &HashGrid) -> Result<(), RenderError> {
+        let limits = TileLimits { pairs: 0, cells: 0, filled_cells: 0, portions: 0, ..job.limits };
+        self.give_back_above(&limits, Contents::of(job.scene));
+        let room = self.gpu.memory.saturating_sub(self.gpu.ledger.held() + limits.pixel_bytes());
+        if grid.bytes() <= room {
+            return Ok(());
+        }
+        Err(RenderError::Device(TOO_LITTLE_MEMORY.to_owned()))
     }
 
     /// Casts the rays of `tile`, through so many layers a submission.
@@ -98,8 +113,7 @@ impl Renderer {
 fn balls(job: &Job) -> Result<Vec<(DVec3, f64)>, RenderError> {
     let particles = &job.scene.particles;
     if !job.resident {
-        let why = "its memory does not hold all particles at once, as sampling in object space needs them";
-        return Err(RenderError::Device(why.to_owned()));
+        return Err(RenderError::Device(TOO_LITTLE_MEMORY.to_owned()));
     }
     let (camera, unit) = (&job.scene.camera, particles.unit());
     let (eye, [near, far]) = (particles.to_device(camera.eye), [camera.near / unit, camera.far / unit]);

@@ -66,6 +66,7 @@ mod error;
 mod gpu;
 mod inspect;
 mod kernel;
+mod memory;
 mod opacity;
 mod pace;
 mod particles;

@@ -1,7 +1,9 @@
 //! How a picture is cut into tiles that fit the device. Pure: no device is touched here.
 
 use crate::camera::CELL_SLICES;
-use crate::stages::adapt::COLUMN_STRIDE;
+use crate::sampling::Bound;
+use crate::scene::Scene;
+use crate::stages::adapt::{COLUMN_STRIDE, COLUMNS, CellBounds};
 use crate::stages::shared::Fields;
 
 /// A box of cells that is built and cast at once: bundles × layers.
@@ -29,47 +31,118 @@ pub(crate) struct TileLimits {
     pub bundles: u64,
 }
 
-/// Bytes of a bundle's 64 pixels.
-const BUNDLE_BYTES: u64 = 64 * 16;
-/// Bytes of a sum over a portion, for each sample of a cell.
-const PORTION_BYTES: u64 = 64 * 16 * 4;
-/// Bytes of a particle in the widest of its arrays, and in all of them but its quantities.
-const PARTICLE_STRIDE: u64 = 16;
-const PARTICLE_BYTES: u64 = 52;
-/// Bytes of a reference, and of a cell's counter.
-const WORD: u64 = 4;
-/// Bytes of a cell in the widest of the arrays over all cells.
-const CELL_STRIDE: u64 = 32;
-/// Bytes of an analysed cell for each field, in the widest of its arrays, and in all others: those of both
-/// bounds.
-const FILLED_STRIDE: u64 = COLUMN_STRIDE * 16;
-const FILLED_BYTES: u64 = 1120;
+/// What decides how much memory a tile takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Contents {
+    pub particles: u64,
+    pub fields: Fields,
+    pub bound: Bound,
+}
+
+/// The memory is shared out in these many parts, and what the particles leave of it again.
+const SHARES: u64 = 16;
+/// The most shares that particles have.
+const PARTICLE_SHARES: u64 = 8;
+
+/// Bytes of the pixels of a bundle.
+const BUNDLE_PIXELS: u64 = 64 * 16;
+
+/// Bytes of one element in the widest of the arrays that hold any, and in all of them together.
+struct Bytes {
+    widest: u64,
+    all: u64,
+}
+
+impl Bytes {
+    /// Elements for which `memory` suffices, when none of the arrays may be larger than `binding`.
+    fn fit(&self, binding: u64, memory: u64) -> u64 {
+        (binding / self.widest).min(memory / self.all).max(1)
+    }
+}
+
+impl Contents {
+    pub(crate) fn of(scene: &Scene) -> Contents {
+        Contents {
+            particles: scene.particles.len() as u64,
+            fields: scene.quantity.fields(),
+            bound: scene.sampling.bound,
+        }
+    }
+
+    /// Positions in two parts, in view space, and weights; the quantities.
+    fn of_particle(self) -> Bytes {
+        Bytes { widest: 16, all: 52 + 4 * self.fields.count() }
+    }
+
+    /// The reference itself; one in twelve, for a cell that is left to be ordered.
+    fn of_pair(self) -> Bytes {
+        Bytes { widest: 4, all: 5 }
+    }
+
+    /// Its counter, with the sums over counters and a copy for the host; what is known of its values; and
+    /// whether it is sampled.
+    fn of_cell(self) -> Bytes {
+        Bytes { widest: 32, all: 32 + 3 * 4 + 1 }
+    }
+
+    /// Bounds of its bricks and what stands for its columns; two entries in lists of work; 64 samples.
+    fn of_filled_cell(self) -> Bytes {
+        const SAMPLES: u64 = 64 * 16;
+        let columns = COLUMNS * COLUMN_STRIDE * self.fields.count();
+        let bounds = match self.bound {
+            Bound::Difference => columns + COLUMNS * 32,
+            Bound::Paper => size_of::<CellBounds>() as u64,
+        };
+        Bytes { widest: columns.max(SAMPLES), all: bounds + COLUMNS * 16 + 2 * 8 + SAMPLES }
+    }
+
+    /// Its place, and sums for the samples of a cell.
+    fn of_portion(self) -> Bytes {
+        let sums = 64 * 16 * 4 * (1 + self.fields.count());
+        Bytes { widest: sums, all: sums + 8 }
+    }
+
+    /// 64 pixels, a copy of them for the host, half as much for depths; and what an analysis leaves.
+    fn of_bundle(self) -> Bytes {
+        Bytes { widest: BUNDLE_PIXELS, all: BUNDLE_PIXELS * 5 / 2 + 4 * 17 }
+    }
+}
 
 impl TileLimits {
-    /// Limits of a device whose bindings hold `binding` bytes, when a tile may take `memory` bytes:
-    /// a quarter each for particles, references, cells and pixels, and another one for an analysis.
-    pub(crate) fn new(binding: u64, memory: u64, fields: Fields) -> TileLimits {
-        let quarter = memory / 4;
-        // Rounded down as buffers are rounded up.
-        let share = binding.min(quarter) / 16 * 16;
-        // Places in the shaders are 32 bits wide.
-        let words = (share / WORD).clamp(1, u64::from(u32::MAX) / 2);
-        let fields = fields.count();
-        let (particle, filled) = (PARTICLE_BYTES + WORD * fields, FILLED_STRIDE * fields);
+    /// Limits of a device whose bindings hold `binding` bytes, when all arrays together may take `memory`
+    /// bytes. Particles have as many shares as they need; what is left is for the others, and one part in
+    /// sixteen of it for what all tiles have in common.
+    pub(crate) fn new(binding: u64, memory: u64, contents: Contents) -> TileLimits {
+        let share = memory / SHARES;
+        let needed = (contents.particles * contents.of_particle().all).div_ceil(share.max(1));
+        let of_particles = share * needed.clamp(1, PARTICLE_SHARES);
+        let of_rest = |parts: u64| (memory - of_particles) / SHARES * parts;
+        // Rounded down as buffers are rounded up; and places in the shaders are 32 bits wide.
+        let binding = binding / 16 * 16;
+        let words = binding.min(u64::from(u32::MAX) / 2 * 4);
         TileLimits {
-            particles: (binding / PARTICLE_STRIDE).min(quarter / particle).max(1),
-            pairs: words,
-            // The upper levels of the prefix sum need a little more than one in two thousand.
-            cells: (words - words / 1024).min(share / CELL_STRIDE).max(1),
-            filled_cells: (binding / filled).min(quarter / (filled + FILLED_BYTES)).max(1),
-            portions: share / (PORTION_BYTES * (1 + fields)),
-            bundles: (share / BUNDLE_BYTES).max(1),
+            particles: contents.of_particle().fit(binding, of_particles),
+            filled_cells: contents.of_filled_cell().fit(binding, of_rest(6)),
+            pairs: contents.of_pair().fit(words, of_rest(3)),
+            cells: contents.of_cell().fit(words, of_rest(3)),
+            bundles: contents.of_bundle().fit(binding, of_rest(2)),
+            portions: contents.of_portion().fit(binding, of_rest(1)),
         }
     }
 
     /// The same where pixels share their room with as much again for depths.
     pub(crate) fn with_depths(self) -> TileLimits {
-        TileLimits { bundles: (self.bundles / 2).max(1), ..self }
+        TileLimits { bundles: self.bundles_with_depths(), ..self }
+    }
+
+    /// Bytes of all pixels of a tile, with a copy for the host.
+    pub(crate) fn pixel_bytes(&self) -> u64 {
+        2 * BUNDLE_PIXELS * self.bundles
+    }
+
+    /// Bundles of a tile whose depths are asked for too.
+    pub(crate) fn bundles_with_depths(&self) -> u64 {
+        (self.bundles / 2).max(1)
     }
 }
 

@@ -25,8 +25,9 @@ use crate::stages::shared::Fields;
 use crate::stats::Milliseconds;
 use crate::tiles::Job;
 
-/// Bytes that are read back at once, about.
+/// Bytes that are read back at once, about; and no more than this part of the memory.
 const READ_AT_ONCE: u64 = 32 << 20;
+const READ_PART: u64 = 64;
 
 impl Renderer {
     /// Like [`Renderer::render`], and tells what became of every cell.
@@ -118,7 +119,7 @@ impl Renderer {
     /// Reads what became of the cells of `tile`, which is on the device.
     pub(crate) fn read_tile(&self, tile: &Tile, map: &mut CellMap) -> Result<(), RenderError> {
         let bundle_bytes = u64::from(tile.layers) * size_of::<CellEntry>() as u64;
-        let most = (READ_AT_ONCE / bundle_bytes).max(1);
+        let most = (READ_AT_ONCE.min(self.gpu.memory / READ_PART) / bundle_bytes).max(1);
         let mut first = 0;
         while first < tile.bundles() {
             let end = tile.bundles().min(first + most);

@@ -10,7 +10,7 @@ use crate::gpu::{Buffer, Gpu, Timing};
 use crate::kernel::Kernel;
 use crate::pace::Pace;
 use crate::picture::Picture;
-use crate::plan::{self, Tile, TileLimits};
+use crate::plan::{self, Contents, Tile, TileLimits};
 use crate::sampling::{Sampling, Without};
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
@@ -247,12 +247,7 @@ impl Renderer {
         let milliseconds = &mut stats.milliseconds;
         milliseconds.total =
             milliseconds.upload + milliseconds.grid + milliseconds.analysis + milliseconds.ray_cast;
-        stats.gpu_bytes = self.store.bytes()
-            + self.grid.bytes()
-            + self.order.bytes()
-            + self.bundles.bytes()
-            + self.adapt.bytes()
-            + self.cast.bytes();
+        stats.gpu_bytes = self.gpu.ledger.peak();
     }
 
     /// Renders tile by tile.
@@ -277,8 +272,11 @@ impl Renderer {
 
     /// Brings to the device what all tiles share.
     pub(crate) fn begin<'a>(&mut self, scene: &'a Scene) -> Result<Job<'a>, RenderError> {
+        self.gpu.ledger.begin();
         let slices = Slices::new(&scene.camera, scene.height, scene.rate);
-        let limits = TileLimits::new(self.gpu.binding_limit(), self.gpu.memory, scene.quantity.fields());
+        let contents = Contents::of(scene);
+        let limits = TileLimits::new(self.gpu.binding_limit(), self.gpu.memory, contents);
+        self.give_back_above(&limits, contents);
         let geometry = Geometry::of(scene);
         let resident = scene.particles.len() as u64 <= limits.particles;
         if resident && self.store.upload(&self.gpu, &scene.particles, &scene.quantity)? {

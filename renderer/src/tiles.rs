@@ -264,8 +264,7 @@ impl Renderer {
 
     /// Bundles of `tile` that one submission may analyse.
     pub(crate) fn adaptive_chunk(&self, job: &Job, tile: &Tile) -> u64 {
-        // Samples of a cell take nearly as much place as its bounds, and are no part of the limit.
-        let most = (job.limits.filled_cells / 2 / u64::from(tile.layers)).max(1);
+        let most = (job.limits.filled_cells / u64::from(tile.layers)).max(1);
         self.pace[1].bundles().min(most)
     }
 

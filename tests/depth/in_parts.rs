@@ -44,7 +44,7 @@ fn tiles_make_the_same_depths() {
 /// A bundle whose layers are cast one part after the other, colours and depths in turn.
 #[test]
 fn rays_in_parts_have_depths_and_colours_of_the_whole() {
-    let (scene, memory) = (deep(), little(128 << 10));
+    let (scene, memory) = (deep(), little(64 << 10));
     let prepared = prepare(&scene);
     let whole = render(&mut open(&GpuOptions::default()), &prepared).pixels;
     let mut renderer = open(&memory);

@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (name, digits, [width, height]) = (gpu.adapter_name(), pair_sort.digits(), size);
     println!("{name}: {} particles, {width}x{height}, {ROUNDS} rounds", store.count());
     println!("{pairs} pairs, {filled} of {cells} cells, {digits} digits of 4 bits");
-    report("counting sort", &counting, grid.bytes());
+    report("counting sort", &counting, grid.cells.bytes() + grid.pairs.bytes());
     report("sort of pairs", &sorting, pair_sort.bytes());
     let ratios: Vec<f64> = counting.iter().zip(&sorting).map(|(a, b)| total(b) / total(a)).collect();
     let [low, middle, high] = [0.0, 0.5, 1.0].map(|share| quantile(&ratios, share));

@@ -1,14 +1,17 @@
-//! Device buffers that grow and never shrink.
+//! Device buffers that grow as pictures need it.
 
 use std::ops::Range;
 
 use bytemuck::{NoUninit, Pod};
 
 use super::Gpu;
+use super::ledger::Entry;
 use crate::error::RenderError;
 
 /// Buffers are a whole number of these many bytes.
 const GRAIN: u64 = 16;
+/// Bytes that are on their way to the device at a time: they take as much memory again until they are there.
+const WRITE_AT_ONCE: usize = 64 << 20;
 
 /// A buffer of numbers of one size, with room for at least one.
 pub struct Buffer {
@@ -16,25 +19,33 @@ pub struct Buffer {
     stride: u64,
     usage: wgpu::BufferUsages,
     buffer: wgpu::Buffer,
+    entry: Entry,
 }
+
+/// A buffer, and the most elements that it may have.
+pub(crate) type Room<'a> = (&'a mut Buffer, u64);
 
 impl Buffer {
     /// An array for shaders to read and write, `stride` bytes an element.
     pub fn storage(gpu: &Gpu, label: &'static str, stride: u64) -> Buffer {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-        Buffer { label, stride, usage, buffer: create(gpu, label, stride, usage) }
+        Buffer::new(gpu, label, stride, usage)
     }
 
     /// Constants of type `T`.
     pub fn uniform<T>(gpu: &Gpu, label: &'static str) -> Buffer {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let stride = size_of::<T>() as u64;
-        Buffer { label, stride, usage, buffer: create(gpu, label, stride, usage) }
+        Buffer::new(gpu, label, size_of::<T>() as u64, usage)
+    }
+
+    fn new(gpu: &Gpu, label: &'static str, stride: u64, usage: wgpu::BufferUsages) -> Buffer {
+        let (buffer, entry) = create(gpu, label, stride, usage);
+        Buffer { label, stride, usage, buffer, entry }
     }
 
     /// Makes room for `count` elements; contents are lost where the buffer grows.
     pub fn reserve(&mut self, gpu: &Gpu, count: u64) -> Result<(), RenderError> {
-        let needed = (count.max(1) * self.stride).next_multiple_of(GRAIN);
+        let needed = self.bytes_for(count);
         if needed <= self.buffer.size() {
             return Ok(());
         }
@@ -42,18 +53,44 @@ impl Buffer {
         if needed > limit {
             return Err(RenderError::BufferLimit { what: self.label, needed, limit });
         }
-        // The old memory goes before the new is taken: both may not fit side by side.
-        self.buffer.destroy();
-        self.buffer = create(gpu, self.label, needed, self.usage);
+        self.replace(gpu, needed);
         // One that could not be had would pass for as large as it was to be.
-        gpu.check().inspect_err(|_| self.buffer = create(gpu, self.label, self.stride, self.usage))
+        gpu.check().inspect_err(|_| self.replace(gpu, self.stride))
+    }
+
+    /// Gives the memory back where there is room for more than `most` elements; true if it did, and the
+    /// contents are lost.
+    pub(crate) fn give_back_above(&mut self, gpu: &Gpu, most: u64) -> bool {
+        let gives = self.buffer.size() > self.bytes_for(most);
+        if gives {
+            self.replace(gpu, self.stride);
+        }
+        gives
+    }
+
+    /// Bytes of a buffer with room for `count` elements.
+    pub(crate) fn bytes_for(&self, count: u64) -> u64 {
+        (count.max(1) * self.stride).next_multiple_of(GRAIN)
+    }
+
+    /// The old memory goes before the new is taken: both may not fit side by side.
+    fn replace(&mut self, gpu: &Gpu, bytes: u64) {
+        self.buffer.destroy();
+        self.entry = gpu.ledger.enter(0);
+        (self.buffer, self.entry) = create(gpu, self.label, bytes, self.usage);
     }
 
     /// Makes room for `values` and writes them.
     pub fn write<T: NoUninit>(&mut self, gpu: &Gpu, values: &[T]) -> Result<(), RenderError> {
         debug_assert_eq!(size_of_val(values) as u64 % self.stride, 0);
         self.reserve(gpu, size_of_val(values) as u64 / self.stride)?;
-        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(values));
+        for (number, part) in bytemuck::cast_slice(values).chunks(WRITE_AT_ONCE).enumerate() {
+            if number > 0 {
+                gpu.queue.submit([]);
+                gpu.wait()?;
+            }
+            gpu.queue.write_buffer(&self.buffer, (number * WRITE_AT_ONCE) as u64, part);
+        }
         Ok(())
     }
 
@@ -75,13 +112,12 @@ impl Buffer {
     }
 }
 
-fn create(gpu: &Gpu, label: &'static str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size: size.next_multiple_of(GRAIN),
-        usage,
-        mapped_at_creation: false,
-    })
+/// A buffer, with its entry in the device's ledger.
+fn create(gpu: &Gpu, label: &'static str, size: u64, usage: wgpu::BufferUsages) -> (wgpu::Buffer, Entry) {
+    let size = size.next_multiple_of(GRAIN);
+    let entry = gpu.ledger.enter(size);
+    let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
+    (gpu.device.create_buffer(&descriptor), entry)
 }
 
 /// A copy on its way to the host.
@@ -89,6 +125,7 @@ pub(crate) struct Readback {
     staging: wgpu::Buffer,
     /// Bytes that were asked for: the buffer may be larger.
     size: u64,
+    _entry: Entry,
 }
 
 impl Buffer {
@@ -117,14 +154,14 @@ impl Buffer {
         let bytes = |range: &Range<u64>| (range.end - range.start) * self.stride;
         let size = ranges.iter().map(bytes).sum();
         let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
-        let staging = create(gpu, "readback", size, usage);
+        let (staging, entry) = create(gpu, "readback", size, usage);
         let mut place = 0;
         for range in ranges {
             let first = range.start * self.stride;
             encoder.copy_buffer_to_buffer(&self.buffer, first, &staging, place, bytes(range));
             place += bytes(range);
         }
-        Readback { staging, size }
+        Readback { staging, size, _entry: entry }
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod buffer;
 mod edits;
+mod ledger;
 mod needs;
 mod pipeline;
 mod timing;
@@ -11,8 +12,9 @@ mod translation_tests;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub use buffer::Buffer;
-pub(crate) use buffer::Readback;
+pub(crate) use buffer::{Readback, Room};
 use edits::ShaderEdits;
+pub(crate) use ledger::{Entry, Ledger};
 pub use pipeline::{Access, Pipeline, PipelineDescription};
 pub(crate) use timing::Timing;
 
@@ -25,8 +27,8 @@ pub struct GpuOptions {
     pub adapter: Option<String>,
     /// The same, except that another adapter is as good where there is none of that name.
     pub preferred: Option<String>,
-    /// Bytes of device memory that one tile of a picture may take; 4 GiB on a graphics card and 1 GiB
-    /// elsewhere where it is `None`. Pictures that need more are rendered in tiles.
+    /// Bytes of device memory that all of a picture's arrays together may take; 4 GiB on a graphics card and
+    /// 1 GiB elsewhere where it is `None`. Pictures that need more are rendered in tiles.
     pub memory: Option<u64>,
     /// Texts in the shaders and what stands in their place: for tests of the tests. A text that no
     /// shader has is an error of [`Renderer::new`](crate::Renderer::new).
@@ -45,6 +47,7 @@ pub struct Gpu {
     pub(crate) limits: wgpu::Limits,
     pub(crate) timestamps: bool,
     pub(crate) memory: u64,
+    pub(crate) ledger: Ledger,
     pub(crate) edits: ShaderEdits,
     failures: Arc<Mutex<Failures>>,
 }
@@ -95,7 +98,17 @@ impl Gpu {
             _ => SHARED_MEMORY,
         });
         let edits = ShaderEdits::new(&options.shader_edits);
-        Ok(Gpu { device, queue, info, limits, timestamps, memory, edits, failures })
+        Ok(Gpu {
+            device,
+            queue,
+            info,
+            limits,
+            timestamps,
+            memory,
+            ledger: Ledger::default(),
+            edits,
+            failures,
+        })
     }
 
     /// The names of all adapters that could render, each once. Asks every driver, which takes a while.

@@ -7,8 +7,8 @@ use bytemuck::{Pod, Zeroable};
 use super::scan::Scan;
 use super::shared::{FRAME_WGSL, ParticleStore};
 use crate::error::RenderError;
-use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Timing};
-use crate::plan::Tile;
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Room, Timing};
+use crate::plan::{Tile, TileLimits};
 
 /// Builds the grid of one tile at a time.
 pub struct Grid {
@@ -129,7 +129,8 @@ impl Grid {
         pipeline.dispatch(gpu, pass, &buffers, store.count().div_ceil(256));
     }
 
-    pub fn bytes(&self) -> u64 {
-        self.cells.bytes() + self.pairs.bytes()
+    /// The buffers, and the most elements of each under `limits`.
+    pub(crate) fn rooms(&mut self, limits: &TileLimits) -> [Room<'_>; 2] {
+        [(&mut self.cells, Scan::buffer_length(limits.cells)), (&mut self.pairs, limits.pairs)]
     }
 }

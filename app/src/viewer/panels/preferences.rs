@@ -78,7 +78,8 @@ impl Preferences {
         widgets::row(ui, "Device memory", |ui| {
             let mut own = settings.device_memory_mib.is_some();
             let limit = ui.checkbox(&mut own, "Limit").on_hover_text(
-                "A picture that needs more is made part by part: it takes longer, and is the same",
+                "The picture in view takes no more: one that needs more is made part by part, which takes longer, \
+                 and is the same. An export or a measured error beside it may take as much again",
             );
             if limit.changed() {
                 settings.device_memory_mib = own.then_some(1024);

@@ -14,9 +14,9 @@ use super::shared::{
     BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL,
 };
 use crate::error::RenderError;
-use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback};
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback, Room};
 use crate::kernel::Kernel;
-use crate::plan::Tile;
+use crate::plan::{Contents, Tile, TileLimits};
 use crate::sampling::{Bound, Without};
 use crate::scene::Scene;
 pub(crate) use paper::CellBounds;
@@ -47,7 +47,7 @@ pub(crate) struct Adapt {
 type Variant = (u32, Without, Fields);
 
 /// Columns of bricks of a cell.
-const COLUMNS: u64 = 16;
+pub(crate) const COLUMNS: u64 = 16;
 /// Bytes of the values of a column.
 pub(crate) const COLUMN_STRIDE: u64 = size_of::<entries::ColumnValues>() as u64;
 
@@ -160,10 +160,28 @@ impl Adapt {
         self.work.read_back(gpu, encoder, 1)
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
-        let buffers = [&self.cell_values, &self.sampled, &self.bricks, &self.offers, &self.shows];
-        let lists = [&self.bundle_entries, &self.wholes, &self.parts];
-        buffers.into_iter().chain(lists).map(Buffer::bytes).sum::<u64>() + self.paper.bytes()
+    /// The buffers, and the most elements of each under `limits`.
+    pub(crate) fn rooms(
+        &mut self,
+        limits: &TileLimits,
+        Contents { fields, bound, .. }: Contents,
+    ) -> Vec<Room<'_>> {
+        let filled = limits.filled_cells;
+        let [of_bricks, of_slabs] = match bound {
+            Bound::Difference => [filled * COLUMNS, 0],
+            Bound::Paper => [0, filled],
+        };
+        vec![
+            (&mut self.cell_values, limits.cells),
+            (&mut self.sampled, limits.cells),
+            (&mut self.bricks, of_bricks * fields.count()),
+            (&mut self.offers, of_bricks),
+            (&mut self.paper.bounds, of_slabs),
+            (&mut self.shows, filled * COLUMNS),
+            (&mut self.bundle_entries, limits.bundles),
+            (&mut self.wholes, filled),
+            (&mut self.parts, filled),
+        ]
     }
 }
 

@@ -4,7 +4,8 @@
 //! portions of a cell in place of walking over its particles.
 
 use crate::error::RenderError;
-use crate::gpu::{Buffer, Gpu};
+use crate::gpu::{Buffer, Gpu, Room};
+use crate::plan::TileLimits;
 use crate::stages::shared::Fields;
 
 /// References of a portion; a cell with more is crowded (`CROWD` of `frame.wgsl`).
@@ -50,8 +51,10 @@ impl Crowds {
         [&self.portions, &self.sums]
     }
 
-    pub(super) fn bytes(&self) -> u64 {
-        self.portions.bytes() + self.sums.bytes()
+    /// The buffers, and the most elements of each under `limits`.
+    pub(super) fn rooms(&mut self, limits: &TileLimits, fields: Fields) -> [Room<'_>; 2] {
+        let portions = limits.portions;
+        [(&mut self.portions, portions), (&mut self.sums, portions * (1 + fields.count()))]
     }
 }
 

@@ -15,9 +15,9 @@ pub(crate) use crowds::{CROWD, Crowds, portions};
 use super::adapt::Adapt;
 use super::shared::Fields;
 use crate::error::RenderError;
-use crate::gpu::{Buffer, Gpu, Pipeline};
+use crate::gpu::{Buffer, Gpu, Pipeline, Room};
 use crate::kernel::Kernel;
-use crate::plan::Tile;
+use crate::plan::{Tile, TileLimits};
 use crate::sampling::Bound;
 use crate::scene::Scene;
 use samplers::{Samplers, Shaders};
@@ -177,8 +177,15 @@ impl Cast {
         self.composite.dispatch(gpu, pass, &cells, bundles);
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
-        self.pixels.bytes() + self.depths.bytes() + self.segments.bytes() + self.crowds.bytes()
+    /// The buffers, and the most elements of each under `limits`.
+    pub(crate) fn rooms(&mut self, limits: &TileLimits, fields: Fields) -> Vec<Room<'_>> {
+        let mut rooms = vec![
+            (&mut self.pixels, limits.bundles * 64),
+            (&mut self.depths, limits.bundles_with_depths() * 64),
+            (&mut self.segments, limits.filled_cells * 64),
+        ];
+        rooms.extend(self.crowds.rooms(limits, fields));
+        rooms
     }
 }
 

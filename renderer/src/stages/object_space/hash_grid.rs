@@ -33,6 +33,11 @@ const MOST_MET: f64 = 100.0;
 const SLACK: f64 = 1e-3;
 
 impl HashGrid {
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        (size_of_val(&self.slots[..]) + size_of_val(&self.references[..])) as u64
+    }
+
     /// `balls`: places and support radii.
     pub fn new(balls: &[(DVec3, f64)]) -> HashGrid {
         let reach = |(place, radius): &(DVec3, f64)| [*place - *radius, *place + *radius];

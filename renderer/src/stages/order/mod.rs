@@ -4,7 +4,8 @@
 use super::grid::Grid;
 use super::shared::{FRAME_WGSL, ParticleStore};
 use crate::error::RenderError;
-use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
+use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Room};
+use crate::plan::TileLimits;
 
 pub(crate) struct Order {
     batches: Pipeline,
@@ -79,7 +80,8 @@ impl Order {
         [tile, &store.projected, &grid.cells, &grid.pairs, &grid.totals, &self.left].map(Buffer::binding)
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
-        self.left.bytes()
+    /// The buffer, and its most elements under `limits`.
+    pub(crate) fn room(&mut self, limits: &TileLimits) -> Room<'_> {
+        (&mut self.left, limits.pairs / MOST_ALIKE)
     }
 }

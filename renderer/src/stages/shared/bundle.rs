@@ -162,10 +162,6 @@ impl Bundles {
             z_adaptive: std::array::from_fn(|level| words[12 + level].into()),
         })
     }
-
-    pub(crate) fn bytes(&self) -> u64 {
-        self.layer_depth.bytes() + self.counters.bytes()
-    }
 }
 
 /// A stride by which every stretch of turns visits bundles from all over the picture: near the golden

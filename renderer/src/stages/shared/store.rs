@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 use crate::error::RenderError;
-use crate::gpu::{Buffer, Gpu};
+use crate::gpu::{Buffer, Gpu, Room};
 use crate::particles::{ParticleSet, Quantity};
+use crate::plan::TileLimits;
+use crate::stages::shared::Fields;
 
 /// Arrays over the particles. Vectors of four floats where a shader reads all four.
 pub struct ParticleStore {
@@ -71,7 +73,7 @@ impl ParticleStore {
         quantity: &Quantity,
         chosen: &[u32],
     ) -> Result<(), RenderError> {
-        (self.particles, self.quantity) = (0, 0);
+        self.forget();
         self.count = chosen.len() as u64;
         self.projected.reserve(gpu, self.count)?;
         self.weights.reserve(gpu, self.count)?;
@@ -85,11 +87,21 @@ impl ParticleStore {
         self.count
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
-        [&self.high, &self.low, &self.quantities, &self.projected, &self.weights]
-            .map(Buffer::bytes)
-            .iter()
-            .sum()
+    /// The buffers, and the most elements of each under `limits`.
+    pub(crate) fn rooms(&mut self, limits: &TileLimits, fields: Fields) -> [Room<'_>; 5] {
+        let most = limits.particles;
+        [
+            (&mut self.high, most),
+            (&mut self.low, most),
+            (&mut self.projected, most),
+            (&mut self.weights, most),
+            (&mut self.quantities, most * fields.count()),
+        ]
+    }
+
+    /// Takes nothing on the device for known any more.
+    pub(crate) fn forget(&mut self) {
+        (self.particles, self.quantity) = (0, 0);
     }
 }
 

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::error::RenderError;
-use crate::gpu::{Buffer, Gpu};
+use crate::gpu::{Buffer, Entry, Gpu};
 use crate::transfer::{ControlPoint, TransferFunction};
 
 /// The first three texels of a row of the node texture (`transfer.wgsl`).
@@ -30,6 +30,7 @@ const BUCKETS: usize = 256;
 /// Nodes of the transfer function, and the node at the start of each of 256 parts of [0, 1].
 pub(crate) struct TransferTables {
     pub nodes: wgpu::TextureView,
+    entry: Option<Entry>,
     pub buckets: Buffer,
     /// The function that they hold.
     held: Option<TransferFunction>,
@@ -39,6 +40,7 @@ impl TransferTables {
     pub(crate) fn new(gpu: &Gpu) -> TransferTables {
         TransferTables {
             nodes: node_texture(gpu, [1, 1]).create_view(&Default::default()),
+            entry: None,
             buckets: Buffer::storage(gpu, "transfer buckets", 4),
             held: None,
         }
@@ -67,6 +69,7 @@ impl TransferTables {
             texture.size(),
         );
         self.nodes = texture.create_view(&Default::default());
+        self.entry = Some(gpu.ledger.enter(size_of_val(&texels[..]) as u64));
         // A texture that could not be had is not to be kept.
         gpu.check()?;
         self.held = Some(transfer.clone());

@@ -92,10 +92,6 @@ impl Paper {
         .map(Buffer::binding);
         self.pipeline.dispatch(gpu, pass, &[shared, &own].concat(), bundles);
     }
-
-    pub(super) fn bytes(&self) -> u64 {
-        self.bounds.bytes()
-    }
 }
 
 #[cfg(test)]
