@@ -33,6 +33,25 @@ fn every_command_has_help_with_an_example() {
     assert!(sphcast(folder.path(), &["--version"]).out.starts_with("sphcast "));
 }
 
+/// More particles than the least memory holds at a time.
+#[test]
+fn device_memory_can_be_limited() {
+    let folder = folder();
+    let render = |out: &str, more: &[&str]| {
+        let stats = format!("{out}.json");
+        let mut arguments = vec!["render", "demo:radial:1300000", "--size", "160x120", "--out", out];
+        arguments.extend(["--stats", &stats].iter().chain(more));
+        let run = sphcast(folder.path(), &arguments);
+        assert_eq!(run.status, 0, "{}", run.err);
+        let stats = fs::read_to_string(folder.path().join(stats)).unwrap();
+        serde_json::from_str::<serde_json::Value>(&stats).unwrap()["gpu_bytes"].as_u64().unwrap()
+    };
+    let [much, little] = [render("much.png", &[]), render("little.png", &["--device-memory", "64"])];
+    assert!(little <= 64 << 20 && much > 64 << 20, "{little} and {much} bytes");
+    let same = sphcast(folder.path(), &["compare", "much.png", "little.png"]);
+    assert_eq!(same.status, 0, "{}{}", same.out, same.err);
+}
+
 #[test]
 fn wrong_arguments_give_status_2() {
     let folder = folder();
@@ -47,6 +66,7 @@ fn wrong_arguments_give_status_2() {
         &["render", "one.vtk", "--out", "a.png", "--frames", "5..2"],
         &["render", "one.vtk", "--out", "a.png", "--frames", "0..2"],
         &["render", "one.vtk", "--out", "a.jpg"],
+        &["render", "one.vtk", "--out", "a.png", "--device-memory", "1"],
         &["render", "one.vtk", "--out", "a.png", "--overlay", "b.exr"],
         &["render", "one.vtk", "--out", "a.png", "--overlay", "a.png"],
         &["render", "run", "--out", "pictures", "--overlay", "b.png"],

@@ -77,11 +77,20 @@ pub struct DeviceArguments {
     /// Graphics adapter to use: part of its name
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+    /// The most device memory that a picture may take, in MiB; one that needs more is made part by part
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u32).range(device_memory_range()))]
+    pub device_memory: Option<u32>,
+}
+
+fn device_memory_range() -> std::ops::RangeInclusive<i64> {
+    let (least, most) = GpuOptions::MEMORY_MIB.into_inner();
+    least.into()..=most.into()
 }
 
 impl DeviceArguments {
     fn options(&self) -> GpuOptions {
-        GpuOptions { adapter: self.adapter.clone(), ..GpuOptions::default() }
+        let memory = self.device_memory.map(|mib| u64::from(mib) << 20);
+        GpuOptions { adapter: self.adapter.clone(), memory, ..GpuOptions::default() }
     }
 
     fn open(&self) -> anyhow::Result<Gpu> {

@@ -36,6 +36,11 @@ pub struct GpuOptions {
     pub shader_edits: Vec<(String, String)>,
 }
 
+impl GpuOptions {
+    /// Sizes of memory, in MiB, that are of use: pictures of real runs need the least.
+    pub const MEMORY_MIB: std::ops::RangeInclusive<u32> = 64..=1 << 18;
+}
+
 const GRAPHICS_CARD_MEMORY: u64 = 4 << 30;
 const SHARED_MEMORY: u64 = 1 << 30;
 

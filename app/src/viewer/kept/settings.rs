@@ -37,7 +37,6 @@ pub struct Settings {
 
 impl Settings {
     pub const FRAME_CACHE_MIB: std::ops::RangeInclusive<u32> = 64..=1 << 20;
-    pub const DEVICE_MEMORY_MIB: std::ops::RangeInclusive<u32> = 64..=1 << 18;
 
     pub const SCALE: std::ops::RangeInclusive<f32> = 0.6..=2.5;
 

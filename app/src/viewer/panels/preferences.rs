@@ -1,6 +1,7 @@
 //! The settings of the program: device, memory, keys. They outlive it, and change no picture.
 
 use egui::{Align, Event, Key, KeyboardShortcut, Layout, RichText, ScrollArea, Ui, vec2};
+use renderer::GpuOptions;
 
 use crate::viewer::desk::Desk;
 use crate::viewer::kept::Settings;
@@ -85,7 +86,7 @@ impl Preferences {
                 settings.device_memory_mib = own.then_some(1024);
             }
             if let Some(mib) = &mut settings.device_memory_mib {
-                let field = egui::DragValue::new(mib).range(Settings::DEVICE_MEMORY_MIB).suffix(" MiB");
+                let field = egui::DragValue::new(mib).range(GpuOptions::MEMORY_MIB).suffix(" MiB");
                 ui.add(field.speed(16.0).update_while_editing(false)).accessible_name("Device memory");
             }
         });
