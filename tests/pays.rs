@@ -89,12 +89,16 @@ fn cells_tell_how_they_were_sampled() {
 /// A bundle is cast anew where its tile has given way to another one: as it was in the picture.
 #[test]
 fn a_bundle_of_several_tiles_tells_how_it_was_sampled() {
-    let memory = Some(28 << 20);
+    let memory = Some(64 << 20);
     let mut renderer = open(&GpuOptions { memory, ..GpuOptions::default() });
-    let mut scene = noisy();
+    // Noise in one half, so that it pays in some of the tiles only.
+    let (mut scene, noise) = (smooth(), noisy());
+    scene.view.camera = noise.view.camera;
+    scene.view.sampling.tolerance = Some(1e-4);
+    for (particle, noisy) in scene.particles.iter_mut().zip(&noise.particles) {
+        particle.quantity = if particle.position.y < 0.0 { noisy.quantity } else { 0.5 };
+    }
     (scene.view.image.width, scene.view.image.height) = (400, 352);
-    // So narrow that it pays in one of the tiles only.
-    scene.view.sampling.tolerance = Some(4e-5);
     let scene = prepare(&scene);
     let (_, map) = renderer.render_with_cells(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
     let mut in_full = 0;
@@ -106,14 +110,14 @@ fn a_bundle_of_several_tiles_tells_how_it_was_sampled() {
         let is_full = known.cells.iter().all(|cell| cell.class == CellClass::Full);
         in_full += u32::from(is_full && detail.budget.is_none());
     }
-    assert!(in_full > 1, "{in_full} bundles of tiles in which it does not pay");
+    assert!((1..5).contains(&in_full), "{in_full} bundles of tiles in which it does not pay");
 }
 
 #[test]
 fn a_picture_does_not_depend_on_those_before() {
     // Of the same particles: in so narrow a tolerance all is sampled.
     let mut narrow = smooth();
-    narrow.view.sampling.tolerance = Some(4e-5);
+    narrow.view.sampling.tolerance = Some(3.4e-5);
     let mut held = prepare(&smooth());
     let narrow_sampling = prepare(&narrow).sampling;
     let expected = render(&mut open(&GpuOptions::default()), &held).pixels;

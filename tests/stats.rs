@@ -108,22 +108,29 @@ fn a_counting_renderer_knows_which_evaluations_were_inside() {
     assert_eq!((counted.done, plain.evaluations.inside), (plain.evaluations.done, 0));
 }
 
-#[test]
-fn the_analysis_computes_two_weights_of_a_particle_for_each_brick() {
-    for count in [1, 2, 17, 40] {
-        let mut scene = scenes::plain(141, 8, 8);
-        // A single cell, all of which every particle reaches.
-        let camera = scene.view.camera.as_mut().expect("plain scenes have a camera");
-        let middle = (camera.target - camera.eye).length();
-        (camera.near, camera.far) = (Some(0.99 * middle), Some(1.01 * middle));
-        scene.view.transfer.points = vec![grey(0.0, 0.5, 0.1), grey(1.0, 0.5, 0.2)];
-        scene.view.sampling.tolerance = Some(0.01);
-        scene.particles.truncate(count);
-        for particle in &mut scene.particles {
-            (particle.position, particle.support_radius) = (0.01 * particle.position, 10.0);
-        }
-        let stats = render(&mut shared(), &prepare_anyway(&scene)).stats;
-        assert_eq!((stats.cells, stats.pairs), (1, count as u64));
-        assert_eq!(stats.evaluations.bounds, 2 * 64 * count as u64);
+/// So many particles of this radius in a single cell, and the weights that its analysis computes.
+fn weights_of_analysis(count: usize, support_radius: f64) -> u64 {
+    let mut scene = scenes::plain(141, 8, 8);
+    let camera = scene.view.camera.as_mut().expect("plain scenes have a camera");
+    let middle = (camera.target - camera.eye).length();
+    (camera.near, camera.far) = (Some(0.99 * middle), Some(1.01 * middle));
+    scene.view.transfer.points = vec![grey(0.0, 0.5, 0.1), grey(1.0, 0.5, 0.2)];
+    scene.view.sampling.tolerance = Some(0.01);
+    scene.particles.truncate(count);
+    for particle in &mut scene.particles {
+        (particle.position, particle.support_radius) = (0.01 * particle.position, support_radius);
     }
+    let stats = render(&mut shared(), &prepare_anyway(&scene)).stats;
+    assert_eq!((stats.cells, stats.pairs), (1, count as u64));
+    stats.evaluations.bounds
+}
+
+#[test]
+fn the_analysis_computes_a_weight_in_each_brick_of_the_columns_that_a_particle_meets() {
+    for count in [1, 2, 17, 40] {
+        assert_eq!(weights_of_analysis(count, 10.0), 64 * count as u64);
+    }
+    let weights = [1.5, 1.1, 0.8].map(|radius| weights_of_analysis(1, radius));
+    assert!(weights.is_sorted_by(|a, b| a > b), "{weights:?}");
+    assert!(weights.iter().all(|weights| *weights > 0 && weights % 4 == 0), "{weights:?}");
 }

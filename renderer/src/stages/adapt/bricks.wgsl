@@ -46,7 +46,7 @@ struct Expansion {
     // Σ w and Σ q·w.
     weight: Taylor,
     charge: Taylor,
-    // Σ of the least weights that the particles have anywhere in a brick.
+    // Σ of weights that the particles have at least, wherever in a brick.
     least: vec4<f32>,
     // Σ m, Σ q·m, Σ q²·m, where m bounds what the expansion of a particle leaves out.
     rest: vec4<f32>,
@@ -62,6 +62,17 @@ fn no_expansion() -> Expansion {
     return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR));
 }
 
+// Whether a particle may reach any sample of a column: they lie beside a stretch of its direction.
+fn may_reach(column: Column, ball: vec4<f32>) -> bool {
+    let offset = ball.xyz - vec3(column.from_axis, 0.0);
+    let along = dot(offset, column.direction) / dot(column.direction, column.direction);
+    let first = column.depth.x - column.half_depth.x;
+    let last = column.depth.w + column.half_depth.w;
+    let closest = offset - clamp(along, first, last) * column.direction;
+    let reach = (inverseSqrt(ball.w) + sqrt(2.0) * column.half_width.w) * SLACK;
+    return dot(closest, closest) < reach * reach;
+}
+
 // What a particle adds to the sums of a column's bricks, whatever its quantity.
 struct Share {
     weight: f32,
@@ -73,8 +84,8 @@ struct Share {
     reached: vec4<bool>,
 }
 
-// Kernel weights that it takes: in each brick one in the middle, and one where it is farthest from the particle.
-const EVALUATIONS_OF_SHARE: u32 = 2u * BRICK_DEPTH;
+// Kernel weights that it takes: one in the middle of each brick.
+const EVALUATIONS_OF_SHARE: u32 = BRICK_DEPTH;
 
 // The share of a particle (place relative to the cell, and 1/h²) of some weight.
 fn share_of(column: Column, ball: vec4<f32>, weight: f32) -> Share {
@@ -93,8 +104,11 @@ fn share_of(column: Column, ball: vec4<f32>, weight: f32) -> Share {
     // From without, the kernel begins at the edge of the support. The second part stands for the rounding
     // of ρ².
     let span = clamp(1.0 + reach - rho, vec4(0.0), reach);
-    let left_out = weight * (span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend);
-    return Share(weight, term, weight * kernel_at(far + 1e-6), left_out, reached);
+    let left_out = span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend;
+    // A kernel only falls with the distance: what it is where a brick is farthest, by its expansion to there.
+    let fall = jet.bend * rho * reach - 0.5 * (jet.stretch * rho * rho - jet.bend) * reach * reach;
+    let least = max(jet.value * (1.0 - 1e-5) - fall - left_out, vec4(0.0));
+    return Share(weight, term, weight * least, weight * left_out, reached);
 }
 
 // Adds a particle's share, with its quantity relative to the cell's reference.
@@ -173,8 +187,7 @@ fn sum_rounding(e: Expansion, least_weight: vec4<f32>) -> vec4<f32> {
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let swayed = swing(e.weight, column) + sag(e.weight, column, -1.0) + e.rest;
-    let known = e.weight.value * (1.0 - 1e-5) - swayed;
-    let expanded = select(known, vec4(0.0), EXTREMES_ONLY);
+    let expanded = e.weight.value * (1.0 - 1e-5) - swayed;
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     // Beyond, sums of squares may overflow.
     let sound = max(abs(e.low), abs(e.high)) < vec4(LARGEST_QUANTITY);

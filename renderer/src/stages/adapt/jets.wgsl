@@ -52,12 +52,6 @@ fn kernel_third(near: vec4<f32>, far: vec4<f32>) -> vec4<f32> {
     return max(falling, 120.0 * (1.0 - turn) * (2.0 * turn - 1.0));
 }
 
-// The kernel's value at distances ρ.
-fn kernel_at(rho: vec4<f32>) -> vec4<f32> {
-    let inside = max(1.0 - rho, vec4(0.0));
-    return kernel(inside * (1.0 + rho));
-}
-
 // A kernel of radius h around the middles of bricks: (x, y, z) is the way from there to the particle.
 fn taylor_of(
     jet: Jet, inverse_square: f32, x: vec4<f32>, y: vec4<f32>, z: vec4<f32>, direction: vec3<f32>,

@@ -43,6 +43,16 @@ fn find_extremes(cell: Cell, unknown: bool, number: u32, column: u32) -> vec2<f3
     return select(values, EMPTY, least > greatest);
 }
 
+// Which of so many particles that are loaded may reach the column, as bits. Found out before any of them is
+// added: lanes that run together then each add one of theirs, not all the same one.
+fn met_by(column: Column, first: u32, loaded: u32) -> u32 {
+    var met = 0u;
+    for (var i = 0u; i < loaded; i += 1u) {
+        met |= select(0u, 1u << i, may_reach(column, balls[first + i]));
+    }
+    return met;
+}
+
 // Values of the lane's bricks from the particles of its cell, where it is `wanted`. All lanes together.
 //
 // Their quantities are taken relative to a value of the cell that does not depend on their order.
@@ -64,11 +74,13 @@ fn expand(
         }
         workgroupBarrier();
         let loaded = min(COLUMNS, max(end, cell.first + base) - (cell.first + base));
-        for (var i = 0u; i < loaded; i += 1u) {
-            let particle = group_lane + i;
+        var met = met_by(column, group_lane, loaded);
+        evaluations += EVALUATIONS_OF_SHARE * countOneBits(met);
+        for (var left = countOneBits(met); left > 0u; left -= 1u) {
+            let particle = group_lane + firstTrailingBit(met);
             add_particle(&expansion, column, balls[particle], loads[particle]);
+            met &= met - 1u;
         }
-        evaluations += EVALUATIONS_OF_SHARE * loaded;
         workgroupBarrier();
     }
     add_to_tally(0u, evaluations);
