@@ -13,7 +13,7 @@ struct Mutant {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Mutant; 19] = [
+const MUTANTS: [Mutant; 21] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
         edits: &[("span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend", "vec4(0.0)")],
@@ -21,6 +21,17 @@ const MUTANTS: [Mutant; 19] = [
     Mutant {
         what: "the gradient of the sums is dropped",
         edits: &[("column.half_width * (abs(f.a) + abs(f.b))", "vec4(0.0)")],
+    },
+    Mutant {
+        what: "particles that only touch a column are left out of it",
+        edits: &[(
+            "(inverseSqrt(ball.w) + sqrt(2.0) * column.half_width.w) * SLACK",
+            "0.8 * inverseSqrt(ball.w)",
+        )],
+    },
+    Mutant {
+        what: "a particle is taken to weigh as much anywhere in a brick as in its middle",
+        edits: &[("weight * least, weight * left_out", "weight * jet.value, weight * left_out")],
     },
     Mutant {
         what: "a brick is half as wide as it is",
