@@ -117,7 +117,8 @@ pub struct Evaluations {
     pub full: u64,
     /// What this picture computed, the analysis counted in.
     pub done: u64,
-    /// The part of the analysis, which computes a weight of a particle for each brick of the columns that it meets.
+    /// The part of the analysis, which computes a weight of a particle for each brick of the columns that it
+    /// meets.
     #[serde(skip_serializing_if = "is_zero")]
     pub bounds: u64,
     /// Those of `done` with a weight above zero; 0 unless the renderer counts them.
