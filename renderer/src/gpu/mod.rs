@@ -37,7 +37,7 @@ pub struct GpuOptions {
 }
 
 impl GpuOptions {
-    /// Sizes of memory, in MiB, that are of use: pictures of real runs need the least.
+    /// What settings and flags offer for `memory`, in MiB. With less, every picture would come in small tiles.
     pub const MEMORY_MIB: std::ops::RangeInclusive<u32> = 64..=1 << 18;
 }
 

@@ -18,7 +18,7 @@ pub struct Settings {
     /// is none of that name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub adapter: Option<String>,
-    /// Bytes of device memory, in MiB, that a part of a picture may take; what suits the adapter where it
+    /// Bytes of device memory, in MiB, that a picture may take; what suits the adapter where it
     /// is absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub device_memory_mib: Option<u32>,
