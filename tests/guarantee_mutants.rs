@@ -16,7 +16,7 @@ struct Mutant {
 const MUTANTS: [Mutant; 21] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
-        edits: &[("span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend", "vec4(0.0)")],
+        edits: &[("kernel_rest(rho, reach, product) + 1e-6 * jet.bend", "vec4(0.0)")],
     },
     Mutant {
         what: "the gradient of the sums is dropped",

@@ -197,7 +197,7 @@ pub struct FieldInBrick {
 /// How u runs through a brick, as far as it is linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
-    /// u in the middle of the brick.
+    /// u in the middle of the brick, as far as a plane fits its samples.
     pub middle: f32,
     /// By how much it is more at the right, upper and far ends of the brick than there.
     pub rise: [f32; 3],

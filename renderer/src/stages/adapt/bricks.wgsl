@@ -27,19 +27,27 @@ struct Column {
     half_width: vec4<f32>,
     half_depth: vec4<f32>,
     reach: vec4<f32>,
+    // None lies closer to its axis, or to its middle along depth.
+    least_width: vec4<f32>,
+    least_depth: vec4<f32>,
 }
 
 fn column_at(column: u32, axis: vec2<f32>) -> Column {
     let at = frame.sample_offset;
     let first = vec4(at[0].x, at[1].x, at[2].x, at[3].x);
+    let second = vec4(at[0].y, at[1].y, at[2].y, at[3].y);
+    let third = vec4(at[0].z, at[1].z, at[2].z, at[3].z);
     let last = vec4(at[0].w, at[1].w, at[2].w, at[3].w);
+    let depth = 0.5 * (first + last);
     let from_axis = column_from_axis(column);
     let direction = vec3(axis + from_axis, 1.0);
     let half_depth = 0.5 * (last - first) * SLACK;
     let half_width = 0.5 * frame.pitch * (1.0 + last) * SLACK;
     let across = sqrt(2.0) * half_width + half_depth * length(direction.xy);
     let reach = sqrt(across * across + half_depth * half_depth) * SLACK;
-    return Column(from_axis, direction, 0.5 * (first + last), half_width, half_depth, reach);
+    let least_width = 0.5 * frame.pitch * (1.0 + first) / SLACK;
+    let least_depth = min(abs(second - depth), abs(third - depth)) / SLACK;
+    return Column(from_axis, direction, depth, half_width, half_depth, reach, least_width, least_depth);
 }
 
 struct Expansion {
@@ -96,17 +104,16 @@ fn share_of(column: Column, ball: vec4<f32>, weight: f32) -> Share {
     let z = from_axis.z - column.depth;
     let rho = sqrt(x * x + y * y + z * z) * inverse_radius;
     let reach = column.reach * inverse_radius;
-    let reached = rho < 1.0 + reach + 1e-5;
-    let near = max(rho - reach, vec4(0.0));
-    let far = rho + reach;
+    // The product of the ways to the particle and to a sample, at most; in radii.
+    let along = x * column.direction.x + y * column.direction.y + z;
+    let product = (column.half_width * (abs(x) + abs(y)) + column.half_depth * abs(along)) * ball.w;
+    let reached = (1.0 - rho) * (1.0 + rho) + 2.0 * product > vec4(-2e-5);
     let jet = kernel_jet(rho);
-    let term = taylor_of(jet, ball.w, x, y, z, column.direction);
-    // From without, the kernel begins at the edge of the support. The second part stands for the rounding
-    // of ρ².
-    let span = clamp(1.0 + reach - rho, vec4(0.0), reach);
-    let left_out = span * span * span / 6.0 * kernel_third(near, far) + 1e-6 * jet.bend;
+    let term = taylor_of(jet, ball.w, x, y, along, column.direction);
+    // The second part stands for the rounding of ρ².
+    let left_out = kernel_rest(rho, reach, product) + 1e-6 * jet.bend;
     // A kernel only falls with the distance: what it is where a brick is farthest, by its expansion to there.
-    let fall = jet.bend * rho * reach - 0.5 * (jet.stretch * rho * rho - jet.bend) * reach * reach;
+    let fall = jet.bend * product - 0.5 * (jet.stretch * product * product - jet.bend * reach * reach);
     let least = max(jet.value * (1.0 - 1e-5) - fall - left_out, vec4(0.0));
     return Share(weight, term, weight * least, weight * left_out, reached);
 }
@@ -159,7 +166,7 @@ fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> ve
 const STEEP: f32 = 15.0;
 
 // How the quantity runs through bricks in which Σ w is at least `least_weight`, and how far it is from that:
-// Q − mean = N/Σw, where only ∇N·δ and the Σw of the middle are taken.
+// Q − mean = N/Σw, where only ∇N·δ, a middle of what is quadratic in δ, and the Σw of the middle are taken.
 fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column, least_weight: vec4<f32>) {
     let mean = e.charge.value / e.weight.value;
     let relative = less(e.charge, mean, e.weight);
@@ -168,12 +175,18 @@ fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column,
     let back = clamp(column.half_depth * relative.s / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let too_steep = max(max(abs(right), abs(up)), abs(back)) >= vec4(STEEP);
     let rise = abs(right) + abs(up) + abs(back);
-    let weight_off = swing(e.weight, column) + sag_either_way(e.weight, column) + e.rest;
-    let off = rise * weight_off + sag_either_way(relative, column) + remainder(e, mean);
+    // What is left is known up to the second order, too: its middle is added to the slope.
+    let bent = bend_of_quotient(relative, e.weight);
+    let most = sag(bent, column, 1.0);
+    let least = -sag(bent, column, -1.0);
+    let lift = 0.5 * (most + least) / e.weight.value;
+    let weight_bent = sag_either_way(e.weight, column) + e.rest;
+    let weight_off = rise * weight_bent + abs(lift) * (swing(e.weight, column) + weight_bent);
+    let off = 0.5 * (most - least) + weight_off + remainder(e, mean);
     // Half floats have 11 bits.
     let rounding = 0.001 * rise + sum_rounding(e, least_weight) + 4e-6;
     let all_off = min(off / least_weight + rounding, vec4(WIDEST)) * 1.001;
-    (*values).middle += mean;
+    (*values).middle += mean + lift;
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
         (*values).across[i] = pack_slope(vec2(right[i], up[i]));
         (*values).along[i] = pack_slope(vec2(back[i], select(all_off[i], WIDEST, too_steep[i])));

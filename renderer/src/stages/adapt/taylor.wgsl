@@ -55,16 +55,34 @@ fn swing(f: Taylor, column: Column) -> vec4<f32> {
     return column.half_width * (abs(f.a) + abs(f.b)) + column.half_depth * abs(f.s);
 }
 
-// By how much the quadratic part may exceed zero (side 1), or fall below it (side −1).
+// By how much the quadratic part exceeds zero at most (side 1), or falls below it (side −1); less than 0 where it
+// always does the opposite. Samples lie as far aside to a as to b.
 fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
     let width = column.half_width;
     let depth = column.half_depth;
-    let across = max(side * f.aa, vec4(0.0)) + max(side * f.bb, vec4(0.0)) + 2.0 * abs(f.ab);
-    let along = max(side * f.ss, vec4(0.0));
-    let oblique = abs(f.sa) + abs(f.sb);
-    return 0.5 * (width * width * across + depth * depth * along) + width * depth * oblique;
+    let across = side * (f.aa + f.bb);
+    let along = side * f.ss;
+    let least_across = across * column.least_width * column.least_width;
+    let least_along = along * column.least_depth * column.least_depth;
+    let squares = max(across * width * width, least_across) + max(along * depth * depth, least_along);
+    return 0.5 * squares + width * (width * abs(f.ab) + depth * (abs(f.sa) + abs(f.sb)));
 }
 
 fn sag_either_way(f: Taylor, column: Column) -> vec4<f32> {
     return max(sag(f, column, 1.0), sag(f, column, -1.0));
+}
+
+// What is quadratic in n/w, times w in the middle, where n is 0 there. (Linear parts are not looked at.)
+fn bend_of_quotient(n: Taylor, w: Taylor) -> Taylor {
+    let a = n.a / w.value;
+    let b = n.b / w.value;
+    let s = n.s / w.value;
+    var bend = no_taylor();
+    bend.aa = n.aa - 2.0 * a * w.a;
+    bend.bb = n.bb - 2.0 * b * w.b;
+    bend.ss = n.ss - 2.0 * s * w.s;
+    bend.ab = n.ab - a * w.b - b * w.a;
+    bend.sa = n.sa - s * w.a - a * w.s;
+    bend.sb = n.sb - s * w.b - b * w.s;
+    return bend;
 }
