@@ -13,10 +13,22 @@ struct Mutant {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Mutant; 21] = [
+const MUTANTS: [Mutant; 24] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
-        edits: &[("kernel_rest(rho, reach, product) + 1e-6 * jet.bend", "vec4(0.0)")],
+        edits: &[("kernel_rest(ways) + 1e-6 * jet.bend", "vec4(0.0)")],
+    },
+    Mutant {
+        what: "particles whose support ends in a brick are taken to be without or within",
+        edits: &[("above * above * above, rest + below * below * below", "vec4(0.0), rest")],
+    },
+    Mutant {
+        what: "the terms of third order are dropped",
+        edits: &[("return width * across + depth * depth *", "return vec4(0.0) * depth *")],
+    },
+    Mutant {
+        what: "the terms of second order are dropped",
+        edits: &[("return 0.5 * squares + width *", "return vec4(0.0) * width *")],
     },
     Mutant {
         what: "the gradient of the sums is dropped",

@@ -92,30 +92,56 @@ struct Share {
     reached: vec4<bool>,
 }
 
-// Kernel weights that it takes: one in the middle of each brick.
+// Ways from the middles of bricks to a particle, in radii.
+struct Ways {
+    x: vec4<f32>,
+    y: vec4<f32>,
+    // Their products with the direction of the column.
+    along: vec4<f32>,
+    rho: vec4<f32>,
+    // With the way from there to a sample, δ, at most: |δ|, the product p·δ, and 2 p·δ − δ².
+    reach: vec4<f32>,
+    product: vec4<f32>,
+    nearing: vec4<f32>,
+}
+
+// `ball`: place relative to the cell, and 1/h².
+fn ways_to(column: Column, ball: vec4<f32>) -> Ways {
+    let inverse_radius = sqrt(ball.w);
+    let from_axis = (ball.xyz - vec3(column.from_axis, 0.0)) * inverse_radius;
+    let depth = column.depth * inverse_radius;
+    let x = from_axis.x - depth * column.direction.x;
+    let y = from_axis.y - depth * column.direction.y;
+    let z = from_axis.z - depth;
+    let along = x * column.direction.x + y * column.direction.y + z;
+    let aside = column.half_width * inverse_radius * (abs(x) + abs(y));
+    let half_depth = column.half_depth * inverse_radius;
+    let behind = half_depth * abs(along);
+    // δ is no shorter than it is deep.
+    let nearing = select(along * along, 2.0 * behind - half_depth * half_depth, abs(along) > half_depth);
+    let rho = sqrt(x * x + y * y + z * z);
+    return Ways(x, y, along, rho, column.reach * inverse_radius, aside + behind, 2.0 * aside + nearing);
+}
+
+// Which bricks a particle may reach.
+fn reached_on(ways: Ways) -> vec4<bool> {
+    return (1.0 - ways.rho) * (1.0 + ways.rho) + ways.nearing > vec4(-2e-5);
+}
+
+// Kernel weights that a share takes: one in the middle of each brick.
 const EVALUATIONS_OF_SHARE: u32 = BRICK_DEPTH;
 
-// The share of a particle (place relative to the cell, and 1/h²) of some weight.
-fn share_of(column: Column, ball: vec4<f32>, weight: f32) -> Share {
-    let from_axis = ball.xyz - vec3(column.from_axis, 0.0);
-    let inverse_radius = sqrt(ball.w);
-    let x = from_axis.x - column.depth * column.direction.x;
-    let y = from_axis.y - column.depth * column.direction.y;
-    let z = from_axis.z - column.depth;
-    let rho = sqrt(x * x + y * y + z * z) * inverse_radius;
-    let reach = column.reach * inverse_radius;
-    // The product of the ways to the particle and to a sample, at most; in radii.
-    let along = x * column.direction.x + y * column.direction.y + z;
-    let product = (column.half_width * (abs(x) + abs(y)) + column.half_depth * abs(along)) * ball.w;
-    let reached = (1.0 - rho) * (1.0 + rho) + 2.0 * product > vec4(-2e-5);
-    let jet = kernel_jet(rho);
-    let term = taylor_of(jet, ball.w, x, y, along, column.direction);
+// The share of a particle of some weight and 1/h².
+fn share_of(column: Column, ways: Ways, inverse_square: f32, weight: f32) -> Share {
+    let jet = kernel_jet(ways.rho);
+    let term = taylor_of(jet, sqrt(inverse_square), ways, column.direction);
     // The second part stands for the rounding of ρ².
-    let left_out = kernel_rest(rho, reach, product) + 1e-6 * jet.bend;
+    let left_out = kernel_rest(ways) + 1e-6 * jet.bend;
     // A kernel only falls with the distance: what it is where a brick is farthest, by its expansion to there.
-    let fall = jet.bend * product - 0.5 * (jet.stretch * product * product - jet.bend * reach * reach);
+    let bent = jet.stretch * ways.product * ways.product - jet.bend * ways.reach * ways.reach;
+    let fall = jet.bend * ways.product - 0.5 * bent + cubic_fall(jet, ways);
     let least = max(jet.value * (1.0 - 1e-5) - fall - left_out, vec4(0.0));
-    return Share(weight, term, weight * least, weight * left_out, reached);
+    return Share(weight, term, weight * least, weight * left_out, reached_on(ways));
 }
 
 // Adds a particle's share, with its quantity relative to the cell's reference.
@@ -134,7 +160,7 @@ fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
 fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f32> {
     let relative = less(e.charge, lambda, e.weight);
     let known = side * relative.value + swing(relative, column) + sag(relative, column, side);
-    return known + remainder(e, lambda);
+    return known + twist(relative.cubic, column) + remainder(e, lambda);
 }
 
 // Relative error of a sum of some hundred terms of f32, to the sum of their magnitudes.
@@ -180,9 +206,9 @@ fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column,
     let most = sag(bent, column, 1.0);
     let least = -sag(bent, column, -1.0);
     let lift = 0.5 * (most + least) / e.weight.value;
-    let weight_bent = sag_either_way(e.weight, column) + e.rest;
+    let weight_bent = sag_either_way(e.weight, column) + twist(e.weight.cubic, column) + e.rest;
     let weight_off = rise * weight_bent + abs(lift) * (swing(e.weight, column) + weight_bent);
-    let off = 0.5 * (most - least) + weight_off + remainder(e, mean);
+    let off = 0.5 * (most - least) + twist(relative.cubic, column) + weight_off + remainder(e, mean);
     // Half floats have 11 bits.
     let rounding = 0.001 * rise + sum_rounding(e, least_weight) + 4e-6;
     let all_off = min(off / least_weight + rounding, vec4(WIDEST)) * 1.001;
@@ -199,7 +225,7 @@ fn sum_rounding(e: Expansion, least_weight: vec4<f32>) -> vec4<f32> {
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
-    let swayed = swing(e.weight, column) + sag(e.weight, column, -1.0) + e.rest;
+    let swayed = swing(e.weight, column) + sag(e.weight, column, -1.0) + twist(e.weight.cubic, column) + e.rest;
     let expanded = e.weight.value * (1.0 - 1e-5) - swayed;
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     // Beyond, sums of squares may overflow.

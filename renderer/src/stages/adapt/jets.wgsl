@@ -1,4 +1,4 @@
-// A kernel around the middles of bricks: its derivatives, and what is left out after the second ones.
+// A kernel around the middles of bricks: its derivatives, and what its expansion leaves out.
 
 // A kernel W at distances ρ, in radii. Its second derivatives at p, |p| = ρ, are −bend·1 + stretch·p pᵀ:
 // bend = −W'/ρ, stretch = (W'' + bend)/ρ². All kernels here have them, at the edge too.
@@ -28,26 +28,27 @@ fn kernel_jet(rho: vec4<f32>) -> Jet {
     return Jet(square * square * (1.0 + 4.0 * rho), 20.0 * square * inside, 60.0 * square / safe);
 }
 
-// Upper bound of what a kernel's expansion at distance ρ leaves out, at places δ from there, |δ| ≤ `reach`:
-// the way p to the particle has |p·δ| ≤ `product`.
-fn kernel_rest(rho: vec4<f32>, reach: vec4<f32>, product: vec4<f32>) -> vec4<f32> {
+// Upper bound of what a kernel's expansion leaves out at any sample.
+fn kernel_rest(ways: Ways) -> vec4<f32> {
     if KERNEL == 0u {
-        return poly6_rest((1.0 - rho) * (1.0 + rho), reach * reach, product);
+        return poly6_rest((1.0 - ways.rho) * (1.0 + ways.rho), ways);
     }
     // From without, the kernel begins at the edge of the support.
-    let span = clamp(1.0 + reach - rho, vec4(0.0), reach);
-    return span * span * span / 6.0 * kernel_third(max(rho - reach, vec4(0.0)), rho + reach);
+    let span = clamp(1.0 + ways.reach - ways.rho, vec4(0.0), ways.reach);
+    let near = max(ways.rho - ways.reach, vec4(0.0));
+    return span * span * span / 6.0 * kernel_third(near, ways.rho + ways.reach);
 }
 
-// At δ, 1 − ρ² is x + 2β − γ, β = p·δ, γ = δ². From without (x < 0) nothing is expanded, and the kernel is at most
-// (x + 2β)³. From within its cube leaves out 8β³ − 12xβγ + 3xγ² − 12β²γ + 6βγ² − γ³; and outside the
-// support, where the kernel is 0 and not that cube, its expansion is no more than this, and no less than −6xγ².
-fn poly6_rest(x: vec4<f32>, square: vec4<f32>, product: vec4<f32>) -> vec4<f32> {
-    let product_square = product * product;
-    let inner = product * max(8.0 * product_square, 12.0 * x * square)
-        + square * (max(12.0 * product_square, 6.0 * x * square) + square * (6.0 * product + square));
-    let outer = max(x + 2.0 * product, vec4(0.0));
-    return select(outer * outer * outer, inner, x > vec4(0.0));
+// At δ, 1 − ρ² is x + 2β − γ, β = p·δ, γ = δ², and the kernel its cube. The expansion of that, up to the third order,
+// leaves out 3xγ² − 12β²γ + 6βγ² − γ³; where 1 − ρ² is below 0, and the kernel 0, the cube besides. From without
+// (x < 0) nothing is expanded, and the kernel itself is left out.
+fn poly6_rest(x: vec4<f32>, ways: Ways) -> vec4<f32> {
+    let square = ways.reach * ways.reach;
+    let product = ways.product;
+    let rest = square * (max(12.0 * product * product, 3.0 * x * square) + square * (6.0 * product + square));
+    let below = max(2.0 * product + square - x, vec4(0.0));
+    let above = max(ways.nearing + x, vec4(0.0));
+    return select(above * above * above, rest + below * below * below, x > vec4(0.0));
 }
 
 // Upper bound of the third derivative of the other kernels in any direction, at distances from `near` to `far`.
@@ -68,25 +69,25 @@ fn kernel_third(near: vec4<f32>, far: vec4<f32>) -> vec4<f32> {
     return max(falling, 120.0 * (1.0 - turn) * (2.0 * turn - 1.0));
 }
 
-// A kernel of radius h around the middles of bricks: (x, y, ·) is the way from there to the particle, `along` its
-// product with the direction.
-fn taylor_of(
-    jet: Jet, inverse_square: f32, x: vec4<f32>, y: vec4<f32>, along: vec4<f32>, direction: vec3<f32>,
-) -> Taylor {
+// A kernel around the middles of bricks.
+fn taylor_of(jet: Jet, inverse_radius: f32, ways: Ways, direction: vec3<f32>) -> Taylor {
+    let inverse_square = inverse_radius * inverse_radius;
+    let slope = inverse_radius * jet.bend;
     let bend = inverse_square * jet.bend;
-    let stretch = inverse_square * inverse_square * jet.stretch;
-    let by_x = stretch * x;
-    let by_y = stretch * y;
+    let by_x = inverse_square * jet.stretch * ways.x;
+    let by_y = inverse_square * jet.stretch * ways.y;
+    let by_along = inverse_square * jet.stretch * ways.along;
     return Taylor(
         jet.value,
-        bend * x,
-        bend * y,
-        bend * along,
-        by_x * x - bend,
-        by_y * y - bend,
-        stretch * along * along - dot(direction, direction) * bend,
-        by_x * y,
-        by_x * along - direction.x * bend,
-        by_y * along - direction.y * bend,
+        slope * ways.x,
+        slope * ways.y,
+        slope * ways.along,
+        by_x * ways.x - bend,
+        by_y * ways.y - bend,
+        by_along * ways.along - dot(direction, direction) * bend,
+        by_x * ways.y,
+        by_x * ways.along - direction.x * bend,
+        by_y * ways.along - direction.y * bend,
+        cubic_of(jet, inverse_radius, ways, direction),
     );
 }

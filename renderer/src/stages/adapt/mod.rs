@@ -198,6 +198,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             HULL_WGSL,
             fields.bounds_wgsl(),
             include_str!("jets.wgsl"),
+            include_str!("cubic.wgsl"),
             include_str!("taylor.wgsl"),
             include_str!("bricks.wgsl"),
             expansions_wgsl(fields),

@@ -6,10 +6,14 @@ fn no_expansions() -> Expansions {
     return no_expansion();
 }
 
-// Adds a particle.
-fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) {
-    let share = share_of(column, ball, load.x);
-    add_share(expansion, share, load.y);
+// Adds a particle; returns the evaluations that it took.
+fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) -> u32 {
+    let ways = ways_to(column, ball);
+    if !any(reached_on(ways)) {
+        return 0u;
+    }
+    add_share(expansion, share_of(column, ways, ball.w, load.x), load.y);
+    return EVALUATIONS_OF_SHARE;
 }
 
 fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -> FieldValues {

@@ -1,5 +1,5 @@
-// Functions around the middles of the four bricks of a column, up to their second derivatives, and how far they
-// stray in a brick.
+// Functions around the middles of the four bricks of a column, up to their second derivatives or what is of third
+// order, and how far they stray in a brick.
 
 // Derivatives with respect to a, b and s (bricks.wgsl).
 struct Taylor {
@@ -13,11 +13,12 @@ struct Taylor {
     ab: vec4<f32>,
     sa: vec4<f32>,
     sb: vec4<f32>,
+    cubic: Cubic,
 }
 
 fn no_taylor() -> Taylor {
     let none = vec4(0.0);
-    return Taylor(none, none, none, none, none, none, none, none, none, none);
+    return Taylor(none, none, none, none, none, none, none, none, none, none, no_cubic());
 }
 
 fn plus(sum: Taylor, factor: f32, term: Taylor) -> Taylor {
@@ -32,6 +33,7 @@ fn plus(sum: Taylor, factor: f32, term: Taylor) -> Taylor {
         sum.ab + factor * term.ab,
         sum.sa + factor * term.sa,
         sum.sb + factor * term.sb,
+        cubic_plus(sum.cubic, vec4(factor), term.cubic),
     );
 }
 
@@ -47,6 +49,7 @@ fn less(f: Taylor, factor: vec4<f32>, g: Taylor) -> Taylor {
         f.ab - factor * g.ab,
         f.sa - factor * g.sa,
         f.sb - factor * g.sb,
+        cubic_plus(f.cubic, -factor, g.cubic),
     );
 }
 

@@ -15,9 +15,13 @@ fn no_expansions() -> Expansions {
     return Expansions(none, none.charge, none.rest_q, none.rest_qq, none.low, none.high);
 }
 
-// Adds a particle.
-fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) {
-    let share = share_of(column, ball, load.x);
+// Adds a particle; returns the evaluations that it took.
+fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4<f32>, load: Load) -> u32 {
+    let ways = ways_to(column, ball);
+    if !any(reached_on(ways)) {
+        return 0u;
+    }
+    let share = share_of(column, ways, ball.w, load.x);
     var colour = (*expansion).colour;
     add_share(&colour, share, load.y);
     (*expansion).colour = colour;
@@ -27,6 +31,7 @@ fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4
     (*expansion).rest_qq += q * q * share.left_out;
     (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), share.reached);
     (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), share.reached);
+    return EVALUATIONS_OF_SHARE;
 }
 
 fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -> FieldValues {

@@ -75,10 +75,9 @@ fn expand(
         workgroupBarrier();
         let loaded = min(COLUMNS, max(end, cell.first + base) - (cell.first + base));
         var met = met_by(column, group_lane, loaded);
-        evaluations += EVALUATIONS_OF_SHARE * countOneBits(met);
         for (var left = countOneBits(met); left > 0u; left -= 1u) {
             let particle = group_lane + firstTrailingBit(met);
-            add_particle(&expansion, column, balls[particle], loads[particle]);
+            evaluations += add_particle(&expansion, column, balls[particle], loads[particle]);
             met &= met - 1u;
         }
         workgroupBarrier();
