@@ -43,7 +43,7 @@ const MUTANTS: [Mutant; 24] = [
     },
     Mutant {
         what: "a particle is taken to weigh as much anywhere in a brick as in its middle",
-        edits: &[("weight * least, weight * left_out", "weight * jet.value, weight * left_out")],
+        edits: &[("Share(term, least, left_out", "Share(term, jet.value, left_out")],
     },
     Mutant {
         what: "a brick is half as wide as it is",

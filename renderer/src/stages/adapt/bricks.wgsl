@@ -83,7 +83,6 @@ fn may_reach(column: Column, ball: vec4<f32>) -> bool {
 
 // What a particle adds to the sums of a column's bricks, whatever its quantity.
 struct Share {
-    weight: f32,
     term: Taylor,
     least: vec4<f32>,
     // Bounds what the expansion leaves out.
@@ -133,21 +132,21 @@ const EVALUATIONS_OF_SHARE: u32 = BRICK_DEPTH;
 
 // The share of a particle of some weight and 1/h².
 fn share_of(column: Column, ways: Ways, inverse_square: f32, weight: f32) -> Share {
-    let jet = kernel_jet(ways.rho);
+    let jet = weighted_jet(weight, ways.rho);
     let term = taylor_of(jet, sqrt(inverse_square), ways, column.direction);
     // The second part stands for the rounding of ρ².
-    let left_out = kernel_rest(ways) + 1e-6 * jet.bend;
+    let left_out = weight * kernel_rest(ways) + 1e-6 * jet.bend;
     // A kernel only falls with the distance: what it is where a brick is farthest, by its expansion to there.
     let bent = jet.stretch * ways.product * ways.product - jet.bend * ways.reach * ways.reach;
     let fall = jet.bend * ways.product - 0.5 * bent + cubic_fall(jet, ways);
     let least = max(jet.value * (1.0 - 1e-5) - fall - left_out, vec4(0.0));
-    return Share(weight, term, weight * least, weight * left_out, reached_on(ways));
+    return Share(term, least, left_out, reached_on(ways));
 }
 
 // Adds a particle's share, with its quantity relative to the cell's reference.
 fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
-    (*expansion).weight = plus((*expansion).weight, share.weight, share.term);
-    (*expansion).charge = plus((*expansion).charge, share.weight * q, share.term);
+    (*expansion).weight = plus((*expansion).weight, 1.0, share.term);
+    (*expansion).charge = plus((*expansion).charge, q, share.term);
     (*expansion).least += share.least;
     (*expansion).rest += share.left_out;
     (*expansion).rest_q += q * share.left_out;

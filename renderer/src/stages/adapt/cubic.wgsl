@@ -28,7 +28,7 @@ fn cubic_of(jet: Jet, inverse_radius: f32, ways: Ways, direction: vec3<f32>) -> 
         return no_cubic();
     }
     let unit = inverse_radius * inverse_radius * inverse_radius;
-    let straight = unit * select(vec4(0.0), vec4(8.0), jet.stretch > vec4(0.0));
+    let straight = unit * jet.cube;
     let bent = -unit * jet.stretch;
     let bent_along = 0.5 * dot(direction, direction) * bent;
     let xx = ways.x * ways.x;
@@ -52,7 +52,7 @@ fn cubic_fall(jet: Jet, ways: Ways) -> vec4<f32> {
     if !has_cubic() {
         return vec4(0.0);
     }
-    return ways.product * (8.0 * ways.product * ways.product - 0.5 * jet.stretch * ways.reach * ways.reach);
+    return ways.product * (jet.cube * ways.product * ways.product - 0.5 * jet.stretch * ways.reach * ways.reach);
 }
 
 fn cubic_plus(sum: Cubic, factor: vec4<f32>, term: Cubic) -> Cubic {

@@ -6,13 +6,15 @@ struct Jet {
     value: vec4<f32>,
     bend: vec4<f32>,
     stretch: vec4<f32>,
+    // Of poly6: inside its support, the factor of (p·δ)³ at δ.
+    cube: vec4<f32>,
 }
 
 fn kernel_jet(rho: vec4<f32>) -> Jet {
     let inside = max(1.0 - rho, vec4(0.0));
     if KERNEL == 0u {
         let x = inside * (1.0 + rho);
-        return Jet(x * x * x, 6.0 * x * x, 24.0 * x);
+        return Jet(x * x * x, 6.0 * x * x, 24.0 * x, select(vec4(0.0), vec4(8.0), x > vec4(0.0)));
     }
     // Where W'' has a cusp, p pᵀ outweighs what is infinite.
     let safe = max(rho, vec4(1e-6));
@@ -23,9 +25,15 @@ fn kernel_jet(rho: vec4<f32>) -> Jet {
             select(2.0 * inside * square, 1.0 - 6.0 * rho * rho * inside, inner),
             select(6.0 * square / safe, 12.0 - 18.0 * rho, inner),
             select(6.0 * inside * (1.0 + rho) / (safe * safe), vec4(18.0), inner) / safe,
+            vec4(0.0),
         );
     }
-    return Jet(square * square * (1.0 + 4.0 * rho), 20.0 * square * inside, 60.0 * square / safe);
+    return Jet(square * square * (1.0 + 4.0 * rho), 20.0 * square * inside, 60.0 * square / safe, vec4(0.0));
+}
+
+fn weighted_jet(weight: f32, rho: vec4<f32>) -> Jet {
+    let jet = kernel_jet(rho);
+    return Jet(weight * jet.value, weight * jet.bend, weight * jet.stretch, weight * jet.cube);
 }
 
 // Upper bound of what a kernel's expansion leaves out at any sample.

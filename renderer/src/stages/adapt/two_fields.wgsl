@@ -26,7 +26,7 @@ fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4
     add_share(&colour, share, load.y);
     (*expansion).colour = colour;
     let q = load.z;
-    (*expansion).charge = plus((*expansion).charge, share.weight * q, share.term);
+    (*expansion).charge = plus((*expansion).charge, q, share.term);
     (*expansion).rest_q += q * share.left_out;
     (*expansion).rest_qq += q * q * share.left_out;
     (*expansion).low = select((*expansion).low, min((*expansion).low, vec4(q)), share.reached);
