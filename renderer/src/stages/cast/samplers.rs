@@ -9,7 +9,7 @@ use crate::kernel::Kernel;
 const COLOUR_WGSL: &str = include_str!("colour.wgsl");
 const FULL_WGSL: &str = include_str!("full.wgsl");
 const PORTIONS_WGSL: &str = include_str!("portions.wgsl");
-const SAMPLES_WGSL: &str = include_str!("samples.wgsl");
+const SAMPLES_WGSL: &str = concat!(include_str!("meetings.wgsl"), include_str!("samples.wgsl"));
 const WORK_WGSL: &str = include_str!("work.wgsl");
 
 /// Bindings of what samples cells that `adapt` left.

@@ -25,11 +25,12 @@ fn reference_of(first: u32) -> Quantity {
     return zero_on_log_scale(in_range(quantities[pairs[first]]));
 }
 
-// Brings up to 64 particles of the cell, one a lane, into shared memory.
-fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: Quantity) {
+// Brings up to 64 particles of the cell, one a lane, into shared memory; returns the lane's ball.
+fn load_particle(place: u32, lane: u32, middle: vec3<f32>, depth: f32, reference: Quantity) -> vec4<f32> {
     let particle = particle_in_cell(place, middle, depth, reference);
     balls[lane] = particle.ball;
     loads[lane] = Load(particle.weight, particle.weight * particle.quantity);
+    return particle.ball;
 }
 
 // A ray's way through a ball: along it, 1 − ρ² is a parabola.
@@ -121,13 +122,18 @@ fn sum_particles(
     var count = vec2(0u);
     // A loop, not a condition: software adapters go through conditions whether they hold or not.
     let level_2 = select(0u, 1u, SOME_SHOWN && sampled > ALL_BRICKS && chunk.between == LEVELS_BETWEEN);
+    want_layers(select(sampled & ALL_BRICKS, ALL_BRICKS, level_2 > 0u), lane);
     for (var base = first; base < end; base += LANES) {
+        clear_met(lane);
+        workgroupBarrier();
         if base + lane < end {
-            load_particle(base + lane, lane, middle, depths.x, reference);
+            note_met(load_particle(base + lane, lane, middle, depths.x, reference), axis, lane);
         }
         workgroupBarrier();
-        let loaded = min(LANES, end - base);
-        for (var i = 0u; i < loaded; i += 1u) {
+        turn_met(lane);
+        workgroupBarrier();
+        for (var left = met_by(lane); any(left != vec2(0u)); left = without_next(left)) {
+            let i = next_of(left);
             let arc = arc_through(balls[i], from_axis, direction, direction_squared);
             if arc.top <= 0.0 {
                 continue;
