@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::axis::Axis;
 
-const SIZE: [f64; 2] = [860.0, 460.0];
+const SIZE: [f64; 2] = [860.0, 472.0];
 /// Places of the ends of the axes; the rest is for titles and labels.
 pub const X_ENDS: [f64; 2] = [76.0, 640.0];
 pub const Y_ENDS: [f64; 2] = [386.0, 92.0];
@@ -12,6 +12,8 @@ const NOTE: &str = r##"fill="#666""##;
 const NOTE_SMALL: &str = r##"fill="#666" font-size="11""##;
 /// From one label to the next, at least.
 const LINE: f64 = 17.0;
+/// Characters of a line of the footer: so many fit with a wide font, too.
+const FOOTER_WIDTH: usize = 110;
 
 /// How something is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +52,9 @@ impl Chart {
         let left = X_ENDS[0];
         chart.text([left, 28.0], r##"font-size="17" font-weight="bold" fill="#111""##, title);
         chart.text([left, 49.0], NOTE, note);
-        chart.text([left, 450.0], NOTE_SMALL, footer);
+        for (place, line) in footer_lines(footer).iter().enumerate() {
+            chart.text([left, 448.0 + 15.0 * place as f64], NOTE_SMALL, line);
+        }
         chart.axes();
         chart
     }
@@ -192,9 +196,32 @@ fn push_apart(places: &mut [f64], distance: f64) {
     }
 }
 
+/// The parts of a footer, which semicolons separate, in lines that fit.
+fn footer_lines(footer: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in footer.split("; ") {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + part.chars().count() + 2 <= FOOTER_WIDTH => {
+                line.push_str("; ");
+                line.push_str(part);
+            }
+            _ => lines.push(part.to_owned()),
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_long_footer_goes_on_in_a_second_line() {
+        let footer = format!("{}; frames: 8; rounds: 2; {}", "a".repeat(60), "b".repeat(40));
+        let expected = [format!("{}; frames: 8; rounds: 2", "a".repeat(60)), "b".repeat(40)];
+        assert_eq!(footer_lines(&footer), expected);
+        assert_eq!(footer_lines("short; and simple"), ["short; and simple"]);
+    }
 
     #[test]
     fn labels_are_pushed_apart_no_farther_than_they_must() {
