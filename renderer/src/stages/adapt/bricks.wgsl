@@ -2,12 +2,12 @@
 // from front to back.
 //
 // In a brick with middle c, let N(x) = Σ (q_j − λ) w_j(x). Taylor's theorem gives
-//   N(c + δ) ≤ N(c) + ∇N(c)·δ + ½ δ·H(c)δ + ⅙ |δ|³ Σ |q_j − λ| max|w_j'''|, H = N'',
-// where all but the last term are sums in which neighbours cancel. Q ≤ λ wherever N ≤ 0. The last sum
-// is at most √(Σ m_j · Σ (q_j − λ)² m_j), m_j = max|w_j'''| (Cauchy and Schwarz): a parabola in λ from
-// three sums. So one pass over the particles bounds Q from both sides, more tightly than intervals of
-// the weights (their error falls with the brick's width, this one's with its cube), and the lower bound
-// of Σ w_j proves coverage.
+//   N(c + δ) ≤ N(c) + ∇N(c)·δ + ½ δ·H(c)δ + C(δ) + Σ |q_j − λ| m_j, H = N'', C of third order (cubic.wgsl),
+// where all but the last term are sums in which neighbours cancel, and m_j bounds what the expansion of w_j
+// leaves out. Q ≤ λ wherever N ≤ 0. The last sum is at most √(Σ m_j · Σ (q_j − λ)² m_j) (Cauchy and Schwarz): a
+// parabola in λ from three sums. So one pass over the particles bounds Q from both sides, more tightly than
+// intervals of the weights (their error falls with the brick's width, this one's with its cube and more), and
+// the lower bound of Σ w_j proves coverage.
 //
 // Where samples lie in a brick, δ = a·x̂ + b·ŷ + s·(direction of the column): derivatives are taken with
 // respect to a, b and s.
