@@ -170,8 +170,8 @@ mod tests {
         let State::Done(measured) = &measurement.state else { panic!("it is done") };
         assert!(measured.error.max > 0.0 && measured.error.max <= 0.02, "{:?}", measured.error);
         assert_eq!((measured.error.above, measured.errors.len()), (0.0, 96 * 64));
-        // The analysis of so small a picture takes about as many evaluations as it saves.
-        assert!((0.5..2.0).contains(&measured.speed_up.evaluations), "{:?}", measured.speed_up);
+        // Less than half of the evaluations are left, those of the analysis counted in.
+        assert!((2.0..4.0).contains(&measured.speed_up.evaluations), "{:?}", measured.speed_up);
 
         view.image.background = Some([1.0; 3]);
         assert!(measurement.is_of(&frame, &view), "a background is behind the picture");
