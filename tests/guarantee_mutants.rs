@@ -13,7 +13,7 @@ struct Mutant {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Mutant; 24] = [
+const MUTANTS: [Mutant; 27] = [
     Mutant {
         what: "the remainder of the expansion is dropped",
         edits: &[("kernel_rest(ways) + 1e-6 * jet.bend", "vec4(0.0)")],
@@ -42,12 +42,24 @@ const MUTANTS: [Mutant; 24] = [
         )],
     },
     Mutant {
+        what: "a column has the expansion of its sheaf, unmoved",
+        edits: &[("return leant(shifted(f, way), way.lean);", "return f;")],
+    },
+    Mutant {
+        what: "a sheaf's expansion is moved as if it ended with the first order",
+        edits: &[("0.5 * (square_a * a + square_b * b) + cubic_value", "0.0")],
+    },
+    Mutant {
+        what: "of a sheaf only what a column's expansion leaves out is charged",
+        edits: &[("const SHEAF_ASIDE: f32 = 1.5;", "const SHEAF_ASIDE: f32 = 0.5;")],
+    },
+    Mutant {
         what: "a particle is taken to weigh as much anywhere in a brick as in its middle",
         edits: &[("Share(term, least, left_out", "Share(term, jet.value, left_out")],
     },
     Mutant {
         what: "a brick is half as wide as it is",
-        edits: &[("let half_width = 0.5 * frame.pitch", "let half_width = 0.25 * frame.pitch")],
+        edits: &[("let half_width = aside * frame.pitch", "let half_width = 0.5 * aside * frame.pitch")],
     },
     Mutant {
         what: "a brick is one sample too short",
@@ -70,7 +82,7 @@ const MUTANTS: [Mutant; 24] = [
     },
     Mutant {
         what: "most particles of a cell are left out of its extremes",
-        edits: &[("place < end; place += COLUMNS", "place < min(end, cell.first + 4u); place += COLUMNS")],
+        edits: &[("place < end; place += SHEAVES", "place < min(end, cell.first + 4u); place += SHEAVES")],
     },
     Mutant {
         what: "half of the charge",

@@ -32,22 +32,26 @@ struct Column {
     least_depth: vec4<f32>,
 }
 
-fn column_at(column: u32, axis: vec2<f32>) -> Column {
+// The samples of a column, or of a sheaf of them: `aside`, in pixels, is how far they lie from its axis.
+fn column_about(from_axis: vec2<f32>, aside: f32, axis: vec2<f32>) -> Column {
     let at = frame.sample_offset;
     let first = vec4(at[0].x, at[1].x, at[2].x, at[3].x);
     let second = vec4(at[0].y, at[1].y, at[2].y, at[3].y);
     let third = vec4(at[0].z, at[1].z, at[2].z, at[3].z);
     let last = vec4(at[0].w, at[1].w, at[2].w, at[3].w);
     let depth = 0.5 * (first + last);
-    let from_axis = column_from_axis(column);
     let direction = vec3(axis + from_axis, 1.0);
     let half_depth = 0.5 * (last - first) * SLACK;
-    let half_width = 0.5 * frame.pitch * (1.0 + last) * SLACK;
+    let half_width = aside * frame.pitch * (1.0 + last) * SLACK;
     let across = sqrt(2.0) * half_width + half_depth * length(direction.xy);
     let reach = sqrt(across * across + half_depth * half_depth) * SLACK;
-    let least_width = 0.5 * frame.pitch * (1.0 + first) / SLACK;
+    let least_width = aside * frame.pitch * (1.0 + first) / SLACK;
     let least_depth = min(abs(second - depth), abs(third - depth)) / SLACK;
     return Column(from_axis, direction, depth, half_width, half_depth, reach, least_width, least_depth);
+}
+
+fn column_at(column: u32, axis: vec2<f32>) -> Column {
+    return column_about(column_from_axis(column), 0.5, axis);
 }
 
 struct Expansion {
@@ -63,11 +67,15 @@ struct Expansion {
     // Extremes of the quantity of particles that reach a brick: inverted where there are none.
     low: vec4<f32>,
     high: vec4<f32>,
+    // Σ of the particles' weights, wherever they are; and what the magnitudes of terms add up to that have been
+    // moved (sheaves.wgsl).
+    mass: f32,
+    moved: f32,
 }
 
 fn no_expansion() -> Expansion {
     let none = vec4(0.0);
-    return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR));
+    return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR), 0.0, 0.0);
 }
 
 // Whether a particle may reach any sample of a column: they lie beside a stretch of its direction.
@@ -87,6 +95,7 @@ struct Share {
     least: vec4<f32>,
     // Bounds what the expansion leaves out.
     left_out: vec4<f32>,
+    mass: f32,
     // Bricks that the particle may reach.
     reached: vec4<bool>,
 }
@@ -140,13 +149,14 @@ fn share_of(column: Column, ways: Ways, inverse_square: f32, weight: f32) -> Sha
     let bent = jet.stretch * ways.product * ways.product - jet.bend * ways.reach * ways.reach;
     let fall = jet.bend * ways.product - 0.5 * bent + cubic_fall(jet, ways);
     let least = max(jet.value * (1.0 - 1e-5) - fall - left_out, vec4(0.0));
-    return Share(term, least, left_out, reached_on(ways));
+    return Share(term, least, left_out, weight, reached_on(ways));
 }
 
 // Adds a particle's share, with its quantity relative to the cell's reference.
 fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
     (*expansion).weight = plus((*expansion).weight, 1.0, share.term);
     (*expansion).charge = plus((*expansion).charge, q, share.term);
+    (*expansion).mass += share.mass;
     (*expansion).least += share.least;
     (*expansion).rest += share.left_out;
     (*expansion).rest_q += q * share.left_out;
@@ -218,18 +228,25 @@ fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column,
     }
 }
 
+// What the magnitudes of the terms of Σ w add up to.
+fn magnitude(e: Expansion) -> vec4<f32> {
+    return max(e.weight.value, vec4(e.moved));
+}
+
 // By how much the rounding of the sums may move a bound of Q.
 fn sum_rounding(e: Expansion, least_weight: vec4<f32>) -> vec4<f32> {
-    return SUM_ROUNDING * max(abs(e.low), abs(e.high)) * max(e.weight.value / least_weight, vec4(1.0));
+    return SUM_ROUNDING * max(abs(e.low), abs(e.high)) * max(magnitude(e) / least_weight, vec4(1.0));
 }
 
 fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let swayed = swing(e.weight, column) + sag(e.weight, column, -1.0) + twist(e.weight.cubic, column) + e.rest;
-    let expanded = e.weight.value * (1.0 - 1e-5) - swayed;
+    let expanded = e.weight.value - 1e-5 * magnitude(e) - swayed;
     let least_weight = max(expanded, e.least * (1.0 - 1e-5));
     // Beyond, sums of squares may overflow.
     let sound = max(abs(e.low), abs(e.high)) < vec4(LARGEST_QUANTITY);
-    let covered = sound & (least_weight > 1e-4 * e.weight.value);
+    // A polynomial, moved, may be anything where it leaves out much.
+    let known = (least_weight > 1e-4 * e.weight.value) & (e.weight.value > 0.1 * least_weight);
+    let covered = sound & known & (least_weight > vec4(0.0));
     let safe_weight = select(vec4(1.0), least_weight, covered);
     let rounding = sum_rounding(e, safe_weight);
     let upper = bound(e, column, safe_weight, 1.0) + rounding;

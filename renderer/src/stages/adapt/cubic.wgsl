@@ -5,21 +5,23 @@ fn has_cubic() -> bool {
     return KERNEL == 0u;
 }
 
-// All samples have a² = b² = r² (bricks.wgsl). So ten terms are seven: the factors of a·r², b·r², s·r², s³, a·s²,
-// b·s² and a·b·s.
+// The factors of a³, a²b and so on.
 struct Cubic {
-    arr: vec4<f32>,
-    brr: vec4<f32>,
-    srr: vec4<f32>,
-    sss: vec4<f32>,
+    aaa: vec4<f32>,
+    aab: vec4<f32>,
+    abb: vec4<f32>,
+    bbb: vec4<f32>,
+    aas: vec4<f32>,
+    abs: vec4<f32>,
+    bbs: vec4<f32>,
     ass: vec4<f32>,
     bss: vec4<f32>,
-    asb: vec4<f32>,
+    sss: vec4<f32>,
 }
 
 fn no_cubic() -> Cubic {
     let none = vec4(0.0);
-    return Cubic(none, none, none, none, none, none, none);
+    return Cubic(none, none, none, none, none, none, none, none, none, none);
 }
 
 // Those of poly6 around the middles of bricks: 8β³ − 12xβγ (jets.wgsl).
@@ -29,21 +31,27 @@ fn cubic_of(jet: Jet, inverse_radius: f32, ways: Ways, direction: vec3<f32>) -> 
     }
     let unit = inverse_radius * inverse_radius * inverse_radius;
     let straight = unit * jet.cube;
-    let bent = -unit * jet.stretch;
-    let bent_along = 0.5 * dot(direction, direction) * bent;
-    let xx = ways.x * ways.x;
-    let yy = ways.y * ways.y;
-    let ss = ways.along * ways.along;
-    let turned = 3.0 * straight * ss + bent_along;
-    let bent_by = bent * ways.along;
+    let bent = -0.5 * unit * jet.stretch;
+    let x = ways.x;
+    let y = ways.y;
+    let s = ways.along;
+    let xx = straight * x * x;
+    let yy = straight * y * y;
+    let across = 3.0 * straight * x * y;
+    let along = straight * s * s + dot(direction, direction) * bent;
+    let further = 3.0 * straight * s * s + dot(direction, direction) * bent;
+    let turn = 2.0 * bent * s;
     return Cubic(
-        ways.x * (straight * (xx + 3.0 * yy) + bent),
-        ways.y * (straight * (yy + 3.0 * xx) + bent),
-        3.0 * straight * ways.along * (xx + yy) + bent_by + bent * (direction.x * ways.x + direction.y * ways.y),
-        ways.along * (straight * ss + bent_along),
-        ways.x * turned + direction.x * bent_by,
-        ways.y * turned + direction.y * bent_by,
-        6.0 * straight * ways.x * ways.y * ways.along + bent * (direction.x * ways.y + direction.y * ways.x),
+        x * (xx + bent),
+        across * x + bent * y,
+        across * y + bent * x,
+        y * (yy + bent),
+        s * (3.0 * xx + bent) + 2.0 * direction.x * bent * x,
+        2.0 * (across * s + bent * (direction.x * y + direction.y * x)),
+        s * (3.0 * yy + bent) + 2.0 * direction.y * bent * y,
+        x * further + direction.x * turn,
+        y * further + direction.y * turn,
+        s * along,
     );
 }
 
@@ -60,23 +68,27 @@ fn cubic_plus(sum: Cubic, factor: vec4<f32>, term: Cubic) -> Cubic {
         return sum;
     }
     return Cubic(
-        sum.arr + factor * term.arr,
-        sum.brr + factor * term.brr,
-        sum.srr + factor * term.srr,
-        sum.sss + factor * term.sss,
+        sum.aaa + factor * term.aaa,
+        sum.aab + factor * term.aab,
+        sum.abb + factor * term.abb,
+        sum.bbb + factor * term.bbb,
+        sum.aas + factor * term.aas,
+        sum.abs + factor * term.abs,
+        sum.bbs + factor * term.bbs,
         sum.ass + factor * term.ass,
         sum.bss + factor * term.bss,
-        sum.asb + factor * term.asb,
+        sum.sss + factor * term.sss,
     );
 }
 
-// By how much these terms may exceed zero, or fall below it.
+// By how much these terms may exceed zero, or fall below it. All samples of a column have a² = b² (bricks.wgsl).
 fn twist(f: Cubic, column: Column) -> vec4<f32> {
     if !has_cubic() {
         return vec4(0.0);
     }
     let width = column.half_width;
     let depth = column.half_depth;
-    let across = width * (width * (abs(f.arr) + abs(f.brr)) + depth * (abs(f.srr) + abs(f.asb)));
+    let sideways = abs(f.aaa + f.abb) + abs(f.bbb + f.aab);
+    let across = width * (width * sideways + depth * (abs(f.aas + f.bbs) + abs(f.abs)));
     return width * across + depth * depth * (depth * abs(f.sss) + width * (abs(f.ass) + abs(f.bss)));
 }

@@ -68,13 +68,13 @@ fn pass_group(front: ptr<function, Front>, place: Place) {
     }
 }
 
-// Offers of a column's bricks, kept and summed up by class. `slot`: the cell's, + 2.
+// Offers of a column's bricks, kept and summed up by class. `slot`: as the cell's entry has it.
 fn make_offers(hull: ColumnHull, cell: Cell, slot: u32, before: f32, place: Place) {
     // The column ended before the cell; so what the cell does is charged with the rest.
     let ended = has_ended(before);
     let mine = offers_of(hull, before);
-    if cell.exists && slot > 1u {
-        let kept = (slot - 2u) * COLUMNS + place.column;
+    if cell.exists && slot >= FIRST_SLOT {
+        let kept = (slot - FIRST_SLOT) * COLUMNS + place.column;
         offers[kept] = Offers(select(mine.first, vec4(NONE), ended), mine.second);
         shows[kept] = select(hull.shown, vec4(0.0), ended);
     }
@@ -93,6 +93,9 @@ fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front
     let paths = array(paths_of(0u, slope), paths_of(1u, slope), paths_of(2u, slope), paths_of(3u, slope));
     var walk = start_walk(tile.layers);
     while has_group(&walk, place.index, lane) {
+        if walk.next % STRETCH_CELLS == 0u {
+            survey(walk, place.index, place.axis, lane);
+        }
         let cell = next_group(&walk, place.index, place.number);
         var slot = 0u;
         let values = values_in_cell(cell, place.axis, column, lane, &slot);
@@ -126,8 +129,8 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
         var mine = Offers(vec4(NONE), vec4(NONE));
         var seen = false;
         let slot = cell_values[cell.cell].slot;
-        if cell.exists && slot > 1u {
-            let kept = (slot - 2u) * COLUMNS + place.column;
+        if cell.exists && slot >= FIRST_SLOT {
+            let kept = (slot - FIRST_SLOT) * COLUMNS + place.column;
             mine = offers[kept];
             seen = shows[kept].a > 0.0;
         }

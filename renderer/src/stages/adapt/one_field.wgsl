@@ -16,6 +16,10 @@ fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4
     return EVALUATIONS_OF_SHARE;
 }
 
+fn moved_expansions(expansions: Expansions, way: Move) -> Expansions {
+    return moved_expansion(expansions, way);
+}
+
 fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -> FieldValues {
     return values_of(expansion, column, reference);
 }
@@ -23,6 +27,11 @@ fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -
 // The quantity that decides the opacity.
 fn for_opacity(quantity: Quantity) -> f32 {
     return quantity;
+}
+
+// How far another quantity is from its origin.
+fn stray_of(quantity: Quantity, origin: Quantity) -> f32 {
+    return 0.0;
 }
 
 // What the quantities of a cell are relative to, where the least of those that decide the opacity is known.

@@ -34,6 +34,13 @@ fn add_particle(expansion: ptr<function, Expansions>, column: Column, ball: vec4
     return EVALUATIONS_OF_SHARE;
 }
 
+fn moved_expansions(e: Expansions, way: Move) -> Expansions {
+    var result = e;
+    result.colour = moved_expansion(e.colour, way);
+    result.charge = moved(e.charge, way);
+    return result;
+}
+
 fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -> FieldValues {
     var opacity = expansion.colour;
     opacity.charge = expansion.charge;
@@ -50,6 +57,11 @@ fn field_values_of(expansion: Expansions, column: Column, reference: Quantity) -
 // The quantity that decides the opacity.
 fn for_opacity(quantity: Quantity) -> f32 {
     return quantity.y;
+}
+
+// How far another quantity is from its origin.
+fn stray_of(quantity: Quantity, origin: Quantity) -> f32 {
+    return abs(quantity.x - origin.x);
 }
 
 // What the quantities of a cell are relative to, where the least of those that decide the opacity is known.

@@ -67,9 +67,15 @@ fn has_group(walk: ptr<function, Walk>, index: u32, lane: u32) -> bool {
 
 // Cell `number` of the next group.
 fn next_group(walk: ptr<function, Walk>, index: u32, number: u32) -> Cell {
-    let place = (*walk).next + number;
+    let cell = listed_cell(*walk, index, number);
     (*walk).next += GROUP_CELLS;
-    if place >= (*walk).count {
+    return cell;
+}
+
+// The cell that is so many after the next one.
+fn listed_cell(walk: Walk, index: u32, number: u32) -> Cell {
+    let place = walk.next + number;
+    if place >= walk.count {
         return Cell(false, 0u, 0u, 0u, 0u);
     }
     let layer = filled[place];

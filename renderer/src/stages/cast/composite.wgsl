@@ -26,7 +26,7 @@ fn composite_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
         if place > 1u {
             segment = segments[(place - 2u) * LANES + lane];
         } else if place == 1u {
-            segment = shows[(cell_values[cell].slot - 2u) * COLUMNS + lane / 4u];
+            segment = shows[(cell_values[cell].slot - FIRST_SLOT) * COLUMNS + lane / 4u];
         }
         ray.colour += ray.transparency * segment.rgb;
         ray.transparency *= 1.0 - segment.a;

@@ -60,11 +60,17 @@ fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
     return clamp(slope, vec4(values.low[brick]), vec4(min(high, 1.0)));
 }
 
+// Nothing is known of a cell; or only its values as a whole, and that bricks are to be bounded by columns or sheaves.
+const UNKNOWN: u32 = 0u;
+const BY_COLUMNS: u32 = 1u;
+const BY_SHEAVES: u32 = 2u;
+const FIRST_SLOT: u32 = 3u;
+
 // What is known of a cell.
 struct CellEntry {
     // Values of the cell as a whole, of the quantity that decides the opacity.
     values: vec2<f32>,
-    // Place of its bricks' values + 2; 1 where only the values as a whole are known; 0 for neither.
+    // Place of its bricks' values + FIRST_SLOT; less where they are not known.
     slot: u32,
     // What became of it in the last choice: the place of its class's counter. Stale, like the masks,
     // where the bundle ended before the cell.

@@ -62,10 +62,10 @@ fn next_group(index: u32, first_layer: u32, lane: u32) -> vec2<u32> {
 // Finds the place of a cell of the group, or gives it one.
 fn find_place(number: u32) {
     let slot = cell_values[group[number]].slot;
-    places[number] = slot - 2u;
-    if slot == 0u {
+    places[number] = slot - FIRST_SLOT;
+    if slot == UNKNOWN {
         places[number] = atomicAdd(&slots_taken, 1u);
-        cell_values[group[number]].slot = places[number] + 2u;
+        cell_values[group[number]].slot = places[number] + FIRST_SLOT;
         atomicOr(&unknown, 1u << number);
     }
 }

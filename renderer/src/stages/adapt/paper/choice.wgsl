@@ -120,7 +120,7 @@ fn choose_cells(index: u32, front: Front) -> f32 {
         if end <= first_of_cell(cell) || end > tile.pair_capacity {
             continue;
         }
-        let place = cell_values[cell].slot - 2u;
+        let place = cell_values[cell].slot - FIRST_SLOT;
         if is_left_out(bounds[place].levels[0]) {
             sampled[cell] = 0u;
             note_class(cell, CELLS_TRANSPARENT, 0u);

@@ -1,0 +1,55 @@
+// What a cell is as a whole: the extremes of the quantity, and whether it is smooth.
+
+// Of each cell of a stretch (survey.wgsl), as bits of floats that are not negative: they are in their order.
+var<workgroup> cell_low: array<atomic<u32>, STRETCH_CELLS>;
+var<workgroup> cell_high: array<atomic<u32>, STRETCH_CELLS>;
+// The largest 1/h, and how far another quantity is from that of the first particle.
+var<workgroup> cell_finest: array<atomic<u32>, STRETCH_CELLS>;
+var<workgroup> cell_stray: array<atomic<u32>, STRETCH_CELLS>;
+
+struct Whole {
+    // Bounds of the quantity that decides the opacity; EMPTY where no particle has one.
+    values: vec2<f32>,
+    // The range of all quantities, about; and the largest 1/h, lengths as in the cell.
+    spread: f32,
+    finest: f32,
+}
+
+// Of the lane's cell, by the four lanes of each cell together, where it is `unknown`.
+fn whole_of(cell: Cell, unknown: bool, lane: u32) -> Whole {
+    let number = lane / SHEAVES;
+    if lane % SHEAVES == 0u {
+        atomicStore(&cell_low[number], bitcast<u32>(FAR));
+        atomicStore(&cell_high[number], 0u);
+        atomicStore(&cell_finest[number], 0u);
+        atomicStore(&cell_stray[number], 0u);
+    }
+    workgroupBarrier();
+    let end = select(cell.first, cell.end, unknown);
+    var low = FAR;
+    var high = 0.0;
+    var smallest = FAR;
+    var stray = 0.0;
+    let origin = in_range(quantities[pairs[cell.first]]);
+    for (var place = cell.first + lane % SHEAVES; place < end; place += SHEAVES) {
+        let particle = pairs[place];
+        let quantity = quantities[particle];
+        let u = for_opacity(in_range(quantity));
+        low = select(min(low, u), low, is_rejected(quantity));
+        high = select(max(high, u), high, is_rejected(quantity));
+        stray = max(stray, stray_of(in_range(quantity), origin));
+        smallest = min(smallest, projected[particle].w);
+    }
+    let depth = layer_depth[tile.first_layer + cell.layer].x;
+    atomicMin(&cell_low[number], bitcast<u32>(low));
+    atomicMax(&cell_high[number], bitcast<u32>(high));
+    atomicMax(&cell_finest[number], bitcast<u32>(depth / smallest));
+    atomicMax(&cell_stray[number], bitcast<u32>(stray));
+    workgroupBarrier();
+    let least = bitcast<f32>(atomicLoad(&cell_low[number]));
+    let greatest = bitcast<f32>(atomicLoad(&cell_high[number]));
+    let values = vec2(max(least - 2e-6, 0.0), min(greatest + 2e-6, 1.0));
+    let finest = bitcast<f32>(atomicLoad(&cell_finest[number]));
+    let spread = max(greatest - least, 2.0 * bitcast<f32>(atomicLoad(&cell_stray[number])));
+    return Whole(select(values, EMPTY, least > greatest), spread, finest);
+}
