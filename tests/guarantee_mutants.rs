@@ -51,7 +51,7 @@ const MUTANTS: [Mutant; 27] = [
     },
     Mutant {
         what: "of a sheaf only what a column's expansion leaves out is charged",
-        edits: &[("const SHEAF_ASIDE: f32 = 1.5;", "const SHEAF_ASIDE: f32 = 0.5;")],
+        edits: &[("let aside = sqrt(f32(columns)) - 0.5;", "let aside = 0.5;")],
     },
     Mutant {
         what: "a particle is taken to weigh as much anywhere in a brick as in its middle",
@@ -82,7 +82,7 @@ const MUTANTS: [Mutant; 27] = [
     },
     Mutant {
         what: "most particles of a cell are left out of its extremes",
-        edits: &[("place < end; place += SHEAVES", "place < min(end, cell.first + 4u); place += SHEAVES")],
+        edits: &[("place < end; place += LANES_OF_WHOLE", "place < min(end, cell.first + 4u); place += LANES_OF_WHOLE")],
     },
     Mutant {
         what: "half of the charge",

@@ -32,8 +32,8 @@ struct Column {
     least_depth: vec4<f32>,
 }
 
-// The samples of a column, or of a sheaf of them: `aside`, in pixels, is how far they lie from its axis.
-fn column_about(from_axis: vec2<f32>, aside: f32, axis: vec2<f32>) -> Column {
+// The samples of a square of so many columns around an axis, as if they were one.
+fn bundle_of_columns(from_axis: vec2<f32>, columns: u32, axis: vec2<f32>) -> Column {
     let at = frame.sample_offset;
     let first = vec4(at[0].x, at[1].x, at[2].x, at[3].x);
     let second = vec4(at[0].y, at[1].y, at[2].y, at[3].y);
@@ -41,6 +41,8 @@ fn column_about(from_axis: vec2<f32>, aside: f32, axis: vec2<f32>) -> Column {
     let last = vec4(at[0].w, at[1].w, at[2].w, at[3].w);
     let depth = 0.5 * (first + last);
     let direction = vec3(axis + from_axis, 1.0);
+    // In pixels.
+    let aside = sqrt(f32(columns)) - 0.5;
     let half_depth = 0.5 * (last - first) * SLACK;
     let half_width = aside * frame.pitch * (1.0 + last) * SLACK;
     let across = sqrt(2.0) * half_width + half_depth * length(direction.xy);
@@ -51,7 +53,12 @@ fn column_about(from_axis: vec2<f32>, aside: f32, axis: vec2<f32>) -> Column {
 }
 
 fn column_at(column: u32, axis: vec2<f32>) -> Column {
-    return column_about(column_from_axis(column), 0.5, axis);
+    return bundle_of_columns(column_from_axis(column), 1u, axis);
+}
+
+// The axis amid a square of so many columns: on Morton's curve the first and the last one are opposite corners.
+fn axis_of_columns(first: u32, columns: u32) -> vec2<f32> {
+    return 0.5 * (column_from_axis(first) + column_from_axis(first + columns - 1u));
 }
 
 struct Expansion {

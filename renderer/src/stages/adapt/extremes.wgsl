@@ -7,6 +7,8 @@ var<workgroup> cell_high: array<atomic<u32>, STRETCH_CELLS>;
 var<workgroup> cell_finest: array<atomic<u32>, STRETCH_CELLS>;
 var<workgroup> cell_stray: array<atomic<u32>, STRETCH_CELLS>;
 
+const LANES_OF_WHOLE: u32 = LANES / STRETCH_CELLS;
+
 struct Whole {
     // Bounds of the quantity that decides the opacity; EMPTY where no particle has one.
     values: vec2<f32>,
@@ -17,8 +19,8 @@ struct Whole {
 
 // Of the lane's cell, by the four lanes of each cell together, where it is `unknown`.
 fn whole_of(cell: Cell, unknown: bool, lane: u32) -> Whole {
-    let number = lane / SHEAVES;
-    if lane % SHEAVES == 0u {
+    let number = lane / LANES_OF_WHOLE;
+    if lane % LANES_OF_WHOLE == 0u {
         atomicStore(&cell_low[number], bitcast<u32>(FAR));
         atomicStore(&cell_high[number], 0u);
         atomicStore(&cell_finest[number], 0u);
@@ -31,7 +33,7 @@ fn whole_of(cell: Cell, unknown: bool, lane: u32) -> Whole {
     var smallest = FAR;
     var stray = 0.0;
     let origin = in_range(quantities[pairs[cell.first]]);
-    for (var place = cell.first + lane % SHEAVES; place < end; place += SHEAVES) {
+    for (var place = cell.first + lane % LANES_OF_WHOLE; place < end; place += LANES_OF_WHOLE) {
         let particle = pairs[place];
         let quantity = quantities[particle];
         let u = for_opacity(in_range(quantity));

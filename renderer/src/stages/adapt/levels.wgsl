@@ -96,9 +96,11 @@ fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front
         if walk.next % STRETCH_CELLS == 0u {
             survey(walk, place.index, place.axis, lane);
         }
+        bound_next(walk, place.index, place.axis, lane);
+        let first = walk.next;
         let cell = next_group(&walk, place.index, place.number);
-        var slot = 0u;
-        let values = values_in_cell(cell, place.axis, column, lane, &slot);
+        let slot = cell_values[cell.cell].slot;
+        let values = values_in_cell(first + place.number, slot, place.column);
         let hull = hull_of_column(values, paths, layer_depth[tile.first_layer + cell.layer].x);
         if lane == 0u {
             atomicStore(&open_columns, 0u);

@@ -205,7 +205,6 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             expansions_wgsl(fields),
             include_str!("walk.wgsl"),
             include_str!("extremes.wgsl"),
-            include_str!("expand.wgsl"),
             include_str!("survey.wgsl"),
             include_str!("values.wgsl"),
             include_str!("offers.wgsl"),

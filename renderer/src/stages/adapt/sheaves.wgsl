@@ -4,19 +4,9 @@
 // its columns. Only what the expansion leaves out is bounded for the sheaf, and so is wider than for a column.
 
 const SHEAF_COLUMNS: u32 = 4u;
-// How far samples lie from the axis, in pixels.
-const SHEAF_ASIDE: f32 = 1.5;
 // The terms of a particle's weight, moved by up to NEAR radii (survey.wgsl), have magnitudes that add up to no more
 // than so many times its largest weight, whatever the kernel.
 const MOST_MOVED: f32 = 2.0;
-
-// The samples of a sheaf as if it were a column.
-fn sheaf_at(number: u32, axis: vec2<f32>) -> Column {
-    let first = number * SHEAF_COLUMNS;
-    // Morton's curve: the first and the last column of a sheaf are opposite corners.
-    let corners = column_from_axis(first) + column_from_axis(first + SHEAF_COLUMNS - 1u);
-    return column_about(0.5 * corners, SHEAF_ASIDE, axis);
-}
 
 // From the middles of a sheaf's bricks to those of a column.
 struct Move {
@@ -94,6 +84,6 @@ fn moved_expansion(e: Expansion, way: Move) -> Expansion {
     var result = e;
     result.weight = moved(e.weight, way);
     result.charge = moved(e.charge, way);
-    result.moved = MOST_MOVED * e.mass;
+    result.moved = select(MOST_MOVED * e.mass, 0.0, all(way.lean == vec2(0.0)));
     return result;
 }

@@ -1,10 +1,13 @@
-// A look ahead over a stretch of sixteen filled cells of a bundle: what each is as a whole, and the bricks of those
-// that are smooth, by sheaves.
-//
-// Four lanes have the same cell, and a sheaf of it each.
+// A look ahead over a stretch of sixteen filled cells of a bundle: what each is as a whole, whether it is seen at all,
+// and how its bricks are to be bounded. Four lanes have the same cell.
 
 const STRETCH_CELLS: u32 = 16u;
-const SHEAVES: u32 = 4u;
+
+// Cells of the stretch, as bits: those of which something may be seen, and those of them whose bricks are to be
+// bounded by columns and by sheaves.
+var<workgroup> visible_cells: atomic<u32>;
+var<workgroup> cells_by_columns: atomic<u32>;
+var<workgroup> cells_by_sheaves: atomic<u32>;
 
 // How far samples of a sheaf lie from the middle of a brick at most, in radii of particles, for it to tell much of what
 // columns would; and what it may lose, by a rough guess. (Measured: more, and more is sampled for it than it saves.)
@@ -13,48 +16,48 @@ const SMOOTH: f32 = 2e-4;
 
 // Whether sheaves are likely to do. What poly6 leaves out is of the fourth order.
 fn is_smooth(whole: Whole, axis: vec2<f32>) -> bool {
-    let reach = column_about(vec2(0.0), SHEAF_ASIDE, axis).reach.w * whole.finest;
+    let reach = bundle_of_columns(vec2(0.0), SHEAF_COLUMNS, axis).reach.w * whole.finest;
     let left_out = reach * reach * reach * select(1.0, reach, has_cubic());
     return reach < NEAR && whole.spread * left_out < SMOOTH;
 }
 
+// Nothing is known of a crowded cell: it may let all light through, and is sampled as a whole.
+fn is_crowd(cell: Cell) -> bool {
+    return cell.end - cell.first > CROWD;
+}
+
+fn clear_stretch(lane: u32) {
+    if lane == 0u {
+        atomicStore(&visible_cells, 0u);
+        atomicStore(&cells_by_columns, 0u);
+        atomicStore(&cells_by_sheaves, 0u);
+    }
+}
+
 // Looks at the cells from the walk's next one on. All lanes together.
 fn survey(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
-    let cell = listed_cell(walk, index, lane / SHEAVES);
-    let sheaf = sheaf_at(lane % SHEAVES, axis);
+    let number = lane / LANES_OF_WHOLE;
+    let cell = listed_cell(walk, index, number);
     var entry = cell_values[cell.cell];
     let analysed = cell.exists && !is_crowd(cell);
     let unknown = analysed && entry.slot == UNKNOWN;
+    clear_stretch(lane);
     // Read by all before it is written by one.
     let whole = whole_of(cell, unknown, lane);
     if unknown {
         let state = select(BY_COLUMNS, BY_SHEAVES, is_smooth(whole, axis));
         entry = CellEntry(whole.values, state, 0u, vec2(0u), vec2(0u));
     }
-    let wanted = analysed && entry.slot == BY_SHEAVES && !is_transparent(entry.values);
-    let most = most_of(cell, wanted, lane);
-    for (var once = 0u; once < min(most, 1u); once += 1u) {
-        if wanted && lane % SHEAVES == 0u {
-            slots[lane / SHEAVES] = atomicAdd(&slots_taken, 1u);
+    let visible = analysed && !is_transparent(entry.values);
+    if lane % LANES_OF_WHOLE == 0u {
+        let bit = select(0u, 1u << number, visible);
+        atomicOr(&visible_cells, bit);
+        atomicOr(&cells_by_columns, select(0u, bit, entry.slot == BY_COLUMNS));
+        atomicOr(&cells_by_sheaves, select(0u, bit, entry.slot == BY_SHEAVES));
+        if unknown {
+            cell_values[cell.cell] = entry;
         }
-        let reference = reference_in(cell, entry.values.x);
-        let expansions = expand(cell, reference, wanted, most, axis, sheaf, SHEAVES, lane);
-        let slot = slots[lane / SHEAVES];
-        for (var i = 0u; i < SHEAF_COLUMNS; i += 1u) {
-            let number = lane % SHEAVES * SHEAF_COLUMNS + i;
-            let column = column_at(number, axis);
-            let values = field_values_of(moved_expansions(expansions, move_to(column, sheaf)), column, reference);
-            if wanted {
-                bricks[slot * COLUMNS + number] = values;
-            }
-        }
-        entry.slot = select(entry.slot, slot + FIRST_SLOT, wanted);
-        settle_expansions(lane);
     }
-    if lane % SHEAVES == 0u && cell.exists {
-        cell_values[cell.cell] = entry;
-    }
-    // What four lanes wrote is read by sixteen others.
     storageBarrier();
     workgroupBarrier();
 }

@@ -1,45 +1,132 @@
-// The quantity's bounds in the bricks of cells: kept where they are known, else found out and kept.
-//
-// A workgroup takes four filled cells at a time: lane l has column l mod 16 of cell l/16.
+// The quantity's bounds in the bricks of cells, found out and kept: by columns of four cells, or by sheaves of sixteen
+// cells at a time. So each lane has a column or a sheaf.
 
+// Particles of a cell that are loaded at a time.
+const BATCH: u32 = 16u;
+
+var<workgroup> balls: array<vec4<f32>, BATCH * STRETCH_CELLS>;
+// Weight, and quantity relative to the cell's reference.
+var<workgroup> loads: array<Load, BATCH * STRETCH_CELLS>;
+var<workgroup> most_particles: atomic<u32>;
 var<workgroup> slots: array<u32, STRETCH_CELLS>;
 
-// Nothing is known of a crowded cell: it may let all light through, and is sampled as a whole.
-fn is_crowd(cell: Cell) -> bool {
-    return cell.end - cell.first > CROWD;
+// Which of so many particles that are loaded may reach the column, as bits. Found out before any of them is
+// added: lanes that run together then each add one of theirs, not all the same one.
+fn met_by(column: Column, first: u32, loaded: u32) -> u32 {
+    var met = 0u;
+    for (var i = 0u; i < loaded; i += 1u) {
+        met |= select(0u, 1u << i, may_reach(column, balls[first + i]));
+    }
+    return met;
 }
 
-// Values of the lane's bricks in a cell that was surveyed: kept, or found out and kept. Those of a cell that is
-// transparent as a whole are not looked for. `slot`: as the cell's entry has it then.
-fn values_in_cell(
-    cell: Cell, axis: vec2<f32>, column: Column, lane: u32, slot: ptr<function, u32>,
-) -> FieldValues {
-    let number = lane / COLUMNS;
-    var entry = cell_values[cell.cell];
-    let transparent = !cell.exists || is_crowd(cell) || is_transparent(entry.values);
-    let wanted = !transparent && entry.slot == BY_COLUMNS;
-    let most = most_of(cell, wanted, lane);
-    var values = no_field_values();
-    for (var once = 0u; once < min(most, 1u); once += 1u) {
-        let leader = wanted && lane % COLUMNS == 0u;
-        if leader {
-            slots[number] = atomicAdd(&slots_taken, 1u);
+// The lane's part in bounding bricks: some columns of a cell.
+struct Task {
+    wanted: bool,
+    cell: Cell,
+    // Place of the cell among those that are looked at, and how many lanes it has.
+    number: u32,
+    lanes: u32,
+    // The first column, and how many there are.
+    first_column: u32,
+    columns: u32,
+}
+
+// The largest number of particles of any cell that is wanted, each of which gets a slot. All lanes together.
+fn start_tasks(task: Task, lane: u32) -> u32 {
+    if lane == 0u {
+        atomicStore(&most_particles, 0u);
+    }
+    workgroupBarrier();
+    if task.wanted && task.first_column == 0u {
+        atomicMax(&most_particles, task.cell.end - task.cell.first);
+        slots[task.number] = atomicAdd(&slots_taken, 1u);
+    }
+    return workgroupUniformLoad(&most_particles);
+}
+
+// The sums of the lane's columns, taken together, over the particles of its cell, where it is wanted. All lanes
+// together.
+//
+// Quantities are taken relative to a value of the cell that does not depend on their order.
+fn expand(task: Task, around: Column, reference: Quantity, most: u32, axis: vec2<f32>, lane: u32) -> Expansions {
+    let depths = layer_depth[tile.first_layer + task.cell.layer];
+    let middle = vec3(depths.x * axis, depths.y);
+    let end = select(task.cell.first, task.cell.end, task.wanted);
+    let first_ball = task.number * BATCH;
+    var expansions = no_expansions();
+    var evaluations = 0u;
+    for (var base = 0u; base < most; base += BATCH) {
+        let first = task.cell.first + base;
+        let loaded = min(BATCH, max(end, first) - first);
+        for (var i = lane % task.lanes; i < loaded; i += task.lanes) {
+            let particle = particle_in_cell(first + i, middle, depths.x, reference);
+            balls[first_ball + i] = particle.ball;
+            loads[first_ball + i] = Load(particle.weight, particle.quantity);
         }
-        let reference = reference_in(cell, entry.values.x);
-        let found = expand(cell, reference, wanted, most, axis, column, COLUMNS, lane);
-        if wanted {
-            values = field_values_of(found, column, reference);
-            entry.slot = slots[number] + FIRST_SLOT;
-            bricks[slots[number] * COLUMNS + lane % COLUMNS] = values;
+        workgroupBarrier();
+        var met = met_by(around, first_ball, loaded);
+        for (var left = countOneBits(met); left > 0u; left -= 1u) {
+            let particle = first_ball + firstTrailingBit(met);
+            evaluations += add_particle(&expansions, around, balls[particle], loads[particle]);
+            met &= met - 1u;
         }
-        settle_expansions(lane);
-        if leader {
-            cell_values[cell.cell].slot = entry.slot;
+        workgroupBarrier();
+    }
+    add_to_tally(0u, evaluations);
+    return expansions;
+}
+
+// Bounds the bricks of the walk's next cells that are `wanted`, as bits, so many columns at a time. All lanes together.
+fn bound_bricks(walk: Walk, index: u32, axis: vec2<f32>, columns: u32, wanted: u32, lane: u32) {
+    let lanes = COLUMNS / columns;
+    let number = lane / lanes;
+    let cell = listed_cell(walk, index, number);
+    let task = Task((wanted >> number & 1u) == 1u, cell, number, lanes, lane % lanes * columns, columns);
+    let around = bundle_of_columns(axis_of_columns(task.first_column, columns), columns, axis);
+    let most = start_tasks(task, lane);
+    let reference = reference_in(cell, cell_values[cell.cell].values.x);
+    let expansions = expand(task, around, reference, most, axis, lane);
+    let slot = slots[number];
+    for (var i = 0u; i < columns; i += 1u) {
+        let column = column_at(task.first_column + i, axis);
+        let values = field_values_of(moved_expansions(expansions, move_to(column, around)), column, reference);
+        if task.wanted {
+            bricks[slot * COLUMNS + task.first_column + i] = values;
         }
     }
-    *slot = entry.slot;
-    if !transparent && !wanted {
-        values = bricks[(entry.slot - FIRST_SLOT) * COLUMNS + lane % COLUMNS];
+    // What some lanes write is read by others, and all have added to the tally.
+    storageBarrier();
+    workgroupBarrier();
+    if task.wanted && task.first_column == 0u {
+        cell_values[cell.cell].slot = slot + FIRST_SLOT;
+    }
+    if lane == 0u {
+        settle_tally(0u, EVALUATIONS_OF_BOUNDS);
+    }
+    storageBarrier();
+    workgroupBarrier();
+}
+
+// Bounds the bricks of the next group that are not known yet, and of all cells of a stretch that go by sheaves.
+fn bound_next(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
+    let place = walk.next % STRETCH_CELLS;
+    let by_columns = workgroupUniformLoad(&cells_by_columns) >> place & ((1u << GROUP_CELLS) - 1u);
+    let by_sheaves = select(0u, workgroupUniformLoad(&cells_by_sheaves), place == 0u);
+    let first = select(1u, 0u, by_sheaves != 0u);
+    let end = select(1u, 2u, by_columns != 0u);
+    // One loop: software adapters go through the body of a condition that does not hold.
+    for (var pass_number = first; pass_number < end; pass_number += 1u) {
+        let columns = select(SHEAF_COLUMNS, 1u, pass_number == 1u);
+        bound_bricks(walk, index, axis, columns, select(by_sheaves, by_columns, pass_number == 1u), lane);
+    }
+}
+
+// Values of a column of the cell that is number `place` of the walk's, where anything is seen there.
+fn values_in_cell(place: u32, slot: u32, column: u32) -> FieldValues {
+    var values = no_field_values();
+    if (atomicLoad(&visible_cells) >> (place % STRETCH_CELLS) & 1u) == 1u {
+        values = bricks[(slot - FIRST_SLOT) * COLUMNS + column];
     }
     return values;
 }
