@@ -94,7 +94,7 @@ fn a_bundle_of_several_tiles_tells_how_it_was_sampled() {
     // Noise in one half, so that it pays in some of the tiles only.
     let (mut scene, noise) = (smooth(), noisy());
     scene.view.camera = noise.view.camera;
-    scene.view.sampling.tolerance = Some(1e-4);
+    scene.view.sampling.tolerance = Some(3e-4);
     for (particle, noisy) in scene.particles.iter_mut().zip(&noise.particles) {
         particle.quantity = if particle.position.y < 0.0 { noisy.quantity } else { 0.5 };
     }

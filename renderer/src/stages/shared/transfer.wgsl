@@ -15,10 +15,14 @@ struct Segment {
 
 fn segment_at(u: f32) -> Segment {
     var node = buckets[u32(u * BUCKETS)];
-    var place = textureLoad(nodes, vec2(2u, node), 0);
-    while place.z <= u {
-        node += 1u;
+    var place = vec4(0.0);
+    // Mostly the first one; software adapters go once through what follows in the loop, so nothing is fetched there.
+    loop {
         place = textureLoad(nodes, vec2(2u, node), 0);
+        if place.z > u {
+            break;
+        }
+        node += 1u;
     }
     return Segment(node, place);
 }
