@@ -128,9 +128,16 @@ fn weights_of_analysis(count: usize, support_radius: f64) -> u64 {
 #[test]
 fn the_analysis_computes_a_weight_in_each_brick_of_the_columns_that_a_particle_meets() {
     for count in [1, 2, 17, 40] {
-        assert_eq!(weights_of_analysis(count, 10.0), 64 * count as u64);
+        assert_eq!(weights_of_analysis(count, 2.5), 64 * count as u64);
     }
     let weights = [1.5, 1.1, 0.8].map(|radius| weights_of_analysis(1, radius));
     assert!(weights.is_sorted_by(|a, b| a > b), "{weights:?}");
     assert!(weights.iter().all(|weights| *weights > 0 && weights % 4 == 0), "{weights:?}");
+}
+
+#[test]
+fn where_supports_are_large_four_columns_share_their_weights() {
+    for count in [1, 2, 17, 40] {
+        assert_eq!(weights_of_analysis(count, 10.0), 16 * count as u64);
+    }
 }
