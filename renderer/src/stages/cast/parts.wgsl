@@ -58,14 +58,13 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
         strands[4u * unit.ray + unit.brick_layer] = strand;
         return;
     }
+    let shades = shades_of_four(unit.weights, unit.charges, reference);
     let is_coarse = unit.brick_layer == LEVEL_2;
     let levels = select(0u, BRICK_DEPTH, is_coarse);
     for (var i = 0u; i < levels; i += 1u) {
         if is_chosen(coarse, unit.ray / 4u, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
-            let charge = charge_at(unit.charges, i);
-            strands[4u * unit.ray + i] =
-                composite(vec4(0.0), unit.weights[i], charge, reference, path, unit.depths[i]);
+            strands[4u * unit.ray + i] = composite(vec4(0.0), shades[i], path, unit.depths[i]);
         }
     }
 }

@@ -66,13 +66,7 @@ fn kernel_on(depths: vec4<f32>, arc: Arc) -> vec4<f32> {
 // One more sample behind the others: I += T·(1 − t)·c, T *= t (contract, section 1). The last channel is
 // 1 − T of the cell's samples so far: kept instead of T, it loses nothing where it is tiny. What c is,
 // colour.wgsl and depth.wgsl say.
-fn composite(
-    cell: vec4<f32>, weight: f32, charge: Quantity, reference: Quantity, path: f32, depth: f32,
-) -> vec4<f32> {
-    if weight <= 0.0 {
-        return cell;
-    }
-    let sample = shade_of(reference + charge / weight);
+fn composite(cell: vec4<f32>, sample: vec4<f32>, path: f32, depth: f32) -> vec4<f32> {
     let share = (1.0 - cell.w) * path_opacity(sample.w, path);
     return cell + share * vec4(seen_of(sample, depth), 1.0);
 }
@@ -85,10 +79,11 @@ fn composite_four(
     paths: vec4<f32>,
     depths: vec4<f32>,
 ) -> vec4<f32> {
-    var result = composite(cell, weights.x, charge_at(charges, 0u), reference, paths.x, depths.x);
-    result = composite(result, weights.y, charge_at(charges, 1u), reference, paths.y, depths.y);
-    result = composite(result, weights.z, charge_at(charges, 2u), reference, paths.z, depths.z);
-    return composite(result, weights.w, charge_at(charges, 3u), reference, paths.w, depths.w);
+    let shades = shades_of_four(weights, charges, reference);
+    var result = composite(cell, shades[0], paths.x, depths.x);
+    result = composite(result, shades[1], paths.y, depths.y);
+    result = composite(result, shades[2], paths.z, depths.z);
+    return composite(result, shades[3], paths.w, depths.w);
 }
 
 // All four bricks of a ray, sampled at every slice.
@@ -172,7 +167,7 @@ fn cast_cell(
     let path = frame.slab_depth;
     let depth = layer_depth[tile.first_layer + layer].x;
     let scale = depth * length(vec3(axis + from_axis, 1.0)) * frame.path_scale;
-    let coarse = Coarse(sums.w_coarse, sums.q_coarse, sampled >> 4u);
+    let coarse = Coarse(shades_of_four(sums.w_coarse, sums.q_coarse, reference), sampled >> 4u);
     var cell = vec4(0.0);
     cell = pass_brick(cell, 0u, sums.w0, sums.q0, reference, path[0] * scale, sampled, coarse, lane);
     cell = pass_brick(cell, 1u, sums.w1, sums.q1, reference, path[1] * scale, sampled, coarse, lane);
@@ -198,10 +193,9 @@ fn add_samples(
     return vec2(4u, select(0u, positive(k), COUNT_INSIDE));
 }
 
-// Sums at the samples of level 2, and bits of the bricks for which they or their slopes stand.
+// Samples of level 2, and bits of the bricks for which they or their slopes stand.
 struct Coarse {
-    weights: vec4<f32>,
-    charges: Charges,
+    shades: mat4x4<f32>,
     bricks: u32,
 }
 
@@ -229,10 +223,7 @@ fn pass_brick(
         return composite_four(cell, w, q, reference, paths, frame.sample_offset[brick_layer]);
     }
     if is_between {
-        let weight = coarse.weights[brick_layer];
-        let charge = charge_at(coarse.charges, brick_layer);
-        let depth = level_2_offsets()[brick_layer];
-        return composite(cell, weight, charge, reference, dot(paths, vec4(1.0)), depth);
+        return composite(cell, coarse.shades[brick_layer], dot(paths, vec4(1.0)), level_2_offsets()[brick_layer]);
     }
     return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];
 }

@@ -38,6 +38,31 @@ fn transfer_at(u: f32) -> vec4<f32> {
     return value_in(segment_at(u), u);
 }
 
+// A column each for those of four `places` in [0, 1] that are `wanted`; zero for the others. One look-up does for all
+// that lie in a segment, as neighbouring samples mostly do.
+fn transfer_at_four(places: vec4<f32>, wanted: vec4<bool>) -> mat4x4<f32> {
+    var result = mat4x4<f32>();
+    var left = wanted;
+    let u = select(vec4(0.0), places, wanted);
+    loop {
+        let segment = segment_at(select(select(select(u.w, u.z, left.z), u.y, left.y), u.x, left.x));
+        let value = textureLoad(nodes, vec2(0u, segment.node), 0);
+        let change = textureLoad(nodes, vec2(1u, segment.node), 0);
+        let along = (u - segment.place.x) * segment.place.y;
+        let here = left & u >= vec4(segment.place.x) & u < vec4(segment.place.z);
+        result[0] = select(result[0], value + along.x * change, here.x);
+        result[1] = select(result[1], value + along.y * change, here.y);
+        result[2] = select(result[2], value + along.z * change, here.z);
+        result[3] = select(result[3], value + along.w * change, here.w);
+        left &= !here;
+        // At the end, so that software adapters do not fetch once more.
+        if !any(left) {
+            break;
+        }
+    }
+    return result;
+}
+
 // Least and greatest of each of four channels.
 struct Extremes {
     low: vec4<f32>,

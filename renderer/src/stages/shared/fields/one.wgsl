@@ -41,3 +41,9 @@ fn select_charges(otherwise: Charges, charges: Charges, condition: bool) -> Char
 fn shade_of(quantity: Quantity) -> vec4<f32> {
     return transfer_at(in_range(quantity));
 }
+
+// Those of four samples with these sums, where any particle is.
+fn shades_of_four(weights: vec4<f32>, charges: Charges, reference: Quantity) -> mat4x4<f32> {
+    let places = clamp(reference + charges / weights, vec4(0.0), vec4(1.0));
+    return transfer_at_four(places, weights > vec4(0.0));
+}

@@ -43,3 +43,15 @@ fn shade_of(quantity: Quantity) -> vec4<f32> {
     let place = in_range(quantity);
     return vec4(transfer_at(place.x).rgb, transfer_at(place.y).a);
 }
+
+// Those of four samples with these sums, where any particle is.
+fn shades_of_four(weights: vec4<f32>, charges: Charges, reference: Quantity) -> mat4x4<f32> {
+    let hues = clamp(reference.x + charges[0] / weights, vec4(0.0), vec4(1.0));
+    let densities = clamp(reference.y + charges[1] / weights, vec4(0.0), vec4(1.0));
+    var result = transfer_at_four(hues, weights > vec4(0.0));
+    let opacities = transfer_at_four(densities, weights > vec4(0.0));
+    for (var i = 0u; i < 4u; i += 1u) {
+        result[i].w = opacities[i].w;
+    }
+    return result;
+}
