@@ -87,38 +87,45 @@ fn make_offers(hull: ColumnHull, cell: Cell, slot: u32, before: f32, place: Plac
     }
 }
 
+// Makes offers for the next group of cells; returns whether anything is seen behind it.
+fn offer_group(
+    walk: ptr<function, Walk>, place: Place, paths: array<vec2<f32>, 4>, lane: u32, front: ptr<function, Front>,
+) -> bool {
+    let first = (*walk).next;
+    let cell = next_group(walk, place.index, place.number);
+    let slot = cell_values[cell.cell].slot;
+    let values = values_in_cell(first + place.number, slot, place.column);
+    let hull = hull_of_column(values, paths, layer_depth[tile.first_layer + cell.layer].x);
+    if lane == 0u {
+        atomicStore(&open_columns, 0u);
+    }
+    opened[lane] = hull.open;
+    workgroupBarrier();
+    make_offers(hull, cell, slot, light_before(*front, place), place);
+    pass_group(front, place);
+    if !has_ended((*front).light) {
+        atomicAdd(&open_columns, 1u);
+    }
+    return workgroupUniformLoad(&open_columns) > 0u;
+}
+
 // Makes offers from front to back until nothing more is seen; returns the layer after the last one.
 fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front>) -> u32 {
     let slope = column.direction.xy;
     let paths = array(paths_of(0u, slope), paths_of(1u, slope), paths_of(2u, slope), paths_of(3u, slope));
     var walk = start_walk(tile.layers);
-    while has_group(&walk, place.index, lane) {
-        if walk.next % STRETCH_CELLS == 0u {
-            survey(walk, place.index, place.axis, lane);
-        }
-        bound_next(walk, place.index, place.axis, lane);
-        let first = walk.next;
-        let cell = next_group(&walk, place.index, place.number);
-        let slot = cell_values[cell.cell].slot;
-        let values = values_in_cell(first + place.number, slot, place.column);
-        let hull = hull_of_column(values, paths, layer_depth[tile.first_layer + cell.layer].x);
-        if lane == 0u {
-            atomicStore(&open_columns, 0u);
-        }
-        opened[lane] = hull.open;
-        workgroupBarrier();
-        make_offers(hull, cell, slot, light_before(*front, place), place);
-        pass_group(front, place);
-        if !has_ended((*front).light) {
-            atomicAdd(&open_columns, 1u);
-        }
-        if workgroupUniformLoad(&open_columns) == 0u {
-            end_column(front);
-            return layer_after(walk);
+    var is_open = true;
+    while is_open && has_group(&walk, place.index, lane) {
+        survey(walk, place.index, place.axis, lane);
+        bound_stretch(walk, place.index, place.axis, lane);
+        let end = min(walk.next + STRETCH_CELLS, walk.count);
+        while is_open && walk.next < end {
+            bound_group(walk, place.index, place.axis, lane);
+            is_open = offer_group(&walk, place, paths, lane, front);
         }
     }
     end_column(front);
-    return tile.layers;
+    return select(layer_after(walk), tile.layers, is_open);
 }
 
 // Takes the offers that the plan of the column affords, and files the cells; returns what the marginal

@@ -108,17 +108,19 @@ fn bound_bricks(walk: Walk, index: u32, axis: vec2<f32>, columns: u32, wanted: u
     workgroupBarrier();
 }
 
-// Bounds the bricks of the next group that are not known yet, and of all cells of a stretch that go by sheaves.
-fn bound_next(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
-    let place = walk.next % STRETCH_CELLS;
-    let by_columns = workgroupUniformLoad(&cells_by_columns) >> place & ((1u << GROUP_CELLS) - 1u);
-    let by_sheaves = select(0u, workgroupUniformLoad(&cells_by_sheaves), place == 0u);
-    let first = select(1u, 0u, by_sheaves != 0u);
-    let end = select(1u, 2u, by_columns != 0u);
-    // One loop: software adapters go through the body of a condition that does not hold.
-    for (var pass_number = first; pass_number < end; pass_number += 1u) {
-        let columns = select(SHEAF_COLUMNS, 1u, pass_number == 1u);
-        bound_bricks(walk, index, axis, columns, select(by_sheaves, by_columns, pass_number == 1u), lane);
+// Bounds the bricks of all cells of the next stretch that go by sheaves.
+fn bound_stretch(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
+    let wanted = workgroupUniformLoad(&cells_by_sheaves);
+    if wanted != 0u {
+        bound_bricks(walk, index, axis, SHEAF_COLUMNS, wanted, lane);
+    }
+}
+
+// Bounds the bricks of those cells of the next group that go by columns.
+fn bound_group(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
+    let wanted = workgroupUniformLoad(&cells_by_columns) >> (walk.next % STRETCH_CELLS);
+    if (wanted & ((1u << GROUP_CELLS) - 1u)) != 0u {
+        bound_bricks(walk, index, axis, 1u, wanted, lane);
     }
 }
 
