@@ -19,7 +19,8 @@ fn segment_at(u: f32) -> Segment {
     // Mostly the first one; software adapters go once through what follows in the loop, so nothing is fetched there.
     loop {
         place = textureLoad(nodes, vec2(2u, node), 0);
-        if place.z > u {
+        // What is no number ends here, too.
+        if !(place.z <= u) {
             break;
         }
         node += 1u;
@@ -27,10 +28,28 @@ fn segment_at(u: f32) -> Segment {
     return Segment(node, place);
 }
 
-fn value_in(segment: Segment, u: f32) -> vec4<f32> {
+// The transfer function in a segment.
+struct Piece {
+    place: vec4<f32>,
+    value: vec4<f32>,
+    change: vec4<f32>,
+}
+
+fn piece_of(segment: Segment) -> Piece {
     let value = textureLoad(nodes, vec2(0u, segment.node), 0);
-    let change = textureLoad(nodes, vec2(1u, segment.node), 0);
-    return value + ((u - segment.place.x) * segment.place.y) * change;
+    return Piece(segment.place, value, textureLoad(nodes, vec2(1u, segment.node), 0));
+}
+
+fn piece_at(u: f32) -> Piece {
+    return piece_of(segment_at(u));
+}
+
+fn on_piece(piece: Piece, u: f32) -> vec4<f32> {
+    return piece.value + ((u - piece.place.x) * piece.place.y) * piece.change;
+}
+
+fn value_in(segment: Segment, u: f32) -> vec4<f32> {
+    return on_piece(piece_of(segment), u);
 }
 
 // Colour and opacity at u in [0, 1].
@@ -45,16 +64,14 @@ fn transfer_at_four(places: vec4<f32>, wanted: vec4<bool>) -> mat4x4<f32> {
     var left = wanted;
     let u = select(vec4(0.0), places, wanted);
     loop {
-        let segment = segment_at(select(select(select(u.w, u.z, left.z), u.y, left.y), u.x, left.x));
-        let value = textureLoad(nodes, vec2(0u, segment.node), 0);
-        let change = textureLoad(nodes, vec2(1u, segment.node), 0);
-        let along = (u - segment.place.x) * segment.place.y;
-        let here = left & u >= vec4(segment.place.x) & u < vec4(segment.place.z);
-        result[0] = select(result[0], value + along.x * change, here.x);
-        result[1] = select(result[1], value + along.y * change, here.y);
-        result[2] = select(result[2], value + along.z * change, here.z);
-        result[3] = select(result[3], value + along.w * change, here.w);
-        left &= !here;
+        let next = left & vec4(true, !left.x, !(left.x || left.y), !(left.x || left.y || left.z));
+        let piece = piece_at(select(select(select(u.w, u.z, next.z), u.y, next.y), u.x, next.x));
+        let here = left & u >= vec4(piece.place.x) & u < vec4(piece.place.z);
+        result[0] = select(result[0], on_piece(piece, u.x), here.x);
+        result[1] = select(result[1], on_piece(piece, u.y), here.y);
+        result[2] = select(result[2], on_piece(piece, u.z), here.z);
+        result[3] = select(result[3], on_piece(piece, u.w), here.w);
+        left &= !(here | next);
         // At the end, so that software adapters do not fetch once more.
         if !any(left) {
             break;
