@@ -4,7 +4,7 @@ mod bundle;
 mod fields;
 mod frame;
 #[cfg(test)]
-mod range_tests;
+mod transfer_tests;
 mod store;
 mod transfer;
 

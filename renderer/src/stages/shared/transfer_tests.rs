@@ -1,52 +1,70 @@
-//! `transfer_range` of `transfer.wgsl`, on the device: it holds the transfer function over an interval,
+//! `transfer.wgsl`, on the device: what it looks up is the transfer function, and its ranges hold that over an interval,
 //! and hardly more.
+
+use bytemuck::Pod;
 
 use super::{TRANSFER_WGSL, TransferTables};
 use crate::gpu::{Access, Buffer, Gpu, GpuOptions, Pipeline, PipelineDescription};
 use crate::transfer::{ControlPoint, TransferFunction};
 
-const FIND_RANGES_WGSL: &str = "
-@group(0) @binding(0) var<storage, read> buckets: array<u32>;
-@group(0) @binding(1) var nodes: texture_2d<f32>;
-@group(0) @binding(2) var<storage, read> intervals: array<vec2<f32>>;
-@group(0) @binding(3) var<storage, read_write> ranges: array<Extremes>;
-
-@compute @workgroup_size(1)
-fn find_ranges(@builtin(workgroup_id) workgroup: vec3<u32>) {
-    let interval = intervals[workgroup.x];
-    ranges[workgroup.x] = transfer_range(interval.x, interval.y);
-}
-";
-
-type Range = [[f32; 4]; 2];
-
-/// Least and greatest colour and opacity over each interval, as the device finds them.
-fn ranges(gpu: &Gpu, transfer: &TransferFunction, intervals: &[[f32; 2]]) -> Vec<Range> {
+/// What the device makes of each input: `found_in` in WGSL, from the given type to the other one.
+fn found<I: Pod, O: Pod>(
+    gpu: &Gpu,
+    transfer: &TransferFunction,
+    inputs: &[I],
+    [input, output, found_in]: [&str; 3],
+) -> Vec<O> {
     let mut tables = TransferTables::new(gpu);
     tables.write(gpu, transfer).unwrap();
-    let mut inputs = Buffer::storage(gpu, "intervals", 8);
-    inputs.write(gpu, intervals).unwrap();
-    let mut outputs = Buffer::storage(gpu, "ranges", 32);
-    outputs.reserve(gpu, intervals.len() as u64).unwrap();
+    let mut read = Buffer::storage(gpu, "inputs", size_of::<I>() as u64);
+    read.write(gpu, inputs).unwrap();
+    let mut written = Buffer::storage(gpu, "outputs", size_of::<O>() as u64);
+    written.reserve(gpu, inputs.len() as u64).unwrap();
+    let main = format!(
+        "
+        @group(0) @binding(0) var<storage, read> buckets: array<u32>;
+        @group(0) @binding(1) var nodes: texture_2d<f32>;
+        @group(0) @binding(2) var<storage, read> inputs: array<{input}>;
+        @group(0) @binding(3) var<storage, read_write> outputs: array<{output}>;
+        @compute @workgroup_size(1)
+        fn find(@builtin(workgroup_id) workgroup: vec3<u32>) {{
+            let given = inputs[workgroup.x];
+            outputs[workgroup.x] = {found_in};
+        }}
+        "
+    );
     let pipeline = Pipeline::new(
         gpu,
         &PipelineDescription {
-            label: "find_ranges",
-            sources: &[TRANSFER_WGSL, FIND_RANGES_WGSL],
-            entry_point: "find_ranges",
+            label: "find",
+            sources: &[TRANSFER_WGSL, &main],
+            entry_point: "find",
             constants: &[],
             bindings: &[Access::Read, Access::Texture, Access::Read, Access::Write],
         },
     );
     let nodes = wgpu::BindingResource::TextureView(&tables.nodes);
-    let resources = [tables.buckets.binding(), nodes, inputs.binding(), outputs.binding()];
+    let resources = [tables.buckets.binding(), nodes, read.binding(), written.binding()];
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut pass = encoder.begin_compute_pass(&Default::default());
-    pipeline.dispatch(gpu, &mut pass, &resources, intervals.len() as u64);
+    pipeline.dispatch(gpu, &mut pass, &resources, inputs.len() as u64);
     drop(pass);
-    let found = outputs.read_back(gpu, &mut encoder, intervals.len() as u64);
+    let found = written.read_back(gpu, &mut encoder, inputs.len() as u64);
     gpu.queue.submit([encoder.finish()]);
     found.take(gpu).unwrap()
+}
+
+type Range = [[f32; 4]; 2];
+
+/// Least and greatest colour and opacity over each interval.
+fn ranges(gpu: &Gpu, transfer: &TransferFunction, intervals: &[[f32; 2]]) -> Vec<Range> {
+    found(gpu, transfer, intervals, ["vec2<f32>", "Extremes", "transfer_range(given.x, given.y)"])
+}
+
+/// Colours and opacities at those of four places that are not negative.
+fn shades(gpu: &Gpu, transfer: &TransferFunction, places: &[[f32; 4]]) -> Vec<[[f32; 4]; 4]> {
+    let at_four = "transfer_at_four(given, !(given < vec4(0.0)))";
+    found(gpu, transfer, places, ["vec4<f32>", "mat4x4<f32>", at_four])
 }
 
 /// Numbers in [0, 1) from a seed: the same on every machine.
@@ -146,6 +164,46 @@ fn a_range_holds_the_function_over_its_interval_and_hardly_more() {
                     low >= least * (1.0 - 1e-5) - 2.0 * ULP && high <= greatest * (1.0 + 1e-5) + 2.0 * ULP;
                 assert!(near, "{what} is wider than {truth:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn four_looked_up_at_once_are_each_the_function_itself() {
+    let gpu = Gpu::new(&GpuOptions::default()).expect("an adapter");
+    let mut random = Random(2);
+    for count in [1, 2, 3, 8, 40, 4000] {
+        let transfer = random.transfer(count);
+        let places: Vec<[f32; 4]> = (0..100)
+            .map(|_| {
+                // Two in one segment, mostly, one anywhere, and one that is not wanted, in any order.
+                let [low, high] = random.interval(&transfer);
+                let mut four = [low, high, random.unit(), -1.0];
+                four.rotate_left((4.0 * random.unit()) as usize);
+                four
+            })
+            .collect();
+        for (places, found) in places.iter().zip(shades(&gpu, &transfer, &places)) {
+            for (u, found) in places.iter().zip(found) {
+                let truth = match *u < 0.0 {
+                    true => [0.0; 4],
+                    false => value(transfer.points(), f64::from(*u)),
+                };
+                let far = found.iter().zip(truth).any(|(found, truth)| (f64::from(*found) - truth).abs() > 4e-6);
+                assert!(!far, "{count} points, {u} of {places:?}: {found:?} instead of {truth:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_no_number_ends_a_look_up_and_leaves_the_others_alone() {
+    let gpu = Gpu::new(&GpuOptions::default()).expect("an adapter");
+    let transfer = Random(3).transfer(8);
+    let [found] = shades(&gpu, &transfer, &[[0.25, f32::NAN, 0.5, f32::NAN]])[..] else { panic!("one input") };
+    for (u, found) in [(0.25, found[0]), (0.5, found[2])] {
+        for (found, truth) in found.iter().zip(value(transfer.points(), u)) {
+            assert!((f64::from(*found) - truth).abs() < 4e-6, "{found} instead of {truth} at {u}");
         }
     }
 }
