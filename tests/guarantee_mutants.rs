@@ -82,7 +82,10 @@ const MUTANTS: [Mutant; 27] = [
     },
     Mutant {
         what: "most particles of a cell are left out of its extremes",
-        edits: &[("place < end; place += LANES_OF_WHOLE", "place < min(end, cell.first + 4u); place += LANES_OF_WHOLE")],
+        edits: &[(
+            "place < end; place += LANES_OF_WHOLE",
+            "place < min(end, cell.first + 4u); place += LANES_OF_WHOLE",
+        )],
     },
     Mutant {
         what: "half of the charge",

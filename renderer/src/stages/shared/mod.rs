@@ -3,10 +3,10 @@
 mod bundle;
 mod fields;
 mod frame;
-#[cfg(test)]
-mod transfer_tests;
 mod store;
 mod transfer;
+#[cfg(test)]
+mod transfer_tests;
 
 pub(crate) use bundle::{BUNDLE_BINDINGS, Bundles, Counters, spread};
 pub(crate) use fields::Fields;

@@ -189,7 +189,8 @@ fn four_looked_up_at_once_are_each_the_function_itself() {
                     true => [0.0; 4],
                     false => value(transfer.points(), f64::from(*u)),
                 };
-                let far = found.iter().zip(truth).any(|(found, truth)| (f64::from(*found) - truth).abs() > 4e-6);
+                let far =
+                    found.iter().zip(truth).any(|(found, truth)| (f64::from(*found) - truth).abs() > 4e-6);
                 assert!(!far, "{count} points, {u} of {places:?}: {found:?} instead of {truth:?}");
             }
         }
@@ -200,7 +201,9 @@ fn four_looked_up_at_once_are_each_the_function_itself() {
 fn what_is_no_number_ends_a_look_up_and_leaves_the_others_alone() {
     let gpu = Gpu::new(&GpuOptions::default()).expect("an adapter");
     let transfer = Random(3).transfer(8);
-    let [found] = shades(&gpu, &transfer, &[[0.25, f32::NAN, 0.5, f32::NAN]])[..] else { panic!("one input") };
+    let [found] = shades(&gpu, &transfer, &[[0.25, f32::NAN, 0.5, f32::NAN]])[..] else {
+        panic!("one input")
+    };
     for (u, found) in [(0.25, found[0]), (0.5, found[2])] {
         for (found, truth) in found.iter().zip(value(transfer.points(), u)) {
             assert!((f64::from(*found) - truth).abs() < 4e-6, "{found} instead of {truth} at {u}");
