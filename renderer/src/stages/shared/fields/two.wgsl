@@ -48,10 +48,12 @@ fn shade_of(quantity: Quantity) -> vec4<f32> {
 fn shades_of_four(weights: vec4<f32>, charges: Charges, reference: Quantity) -> mat4x4<f32> {
     let hues = clamp(reference.x + charges[0] / weights, vec4(0.0), vec4(1.0));
     let densities = clamp(reference.y + charges[1] / weights, vec4(0.0), vec4(1.0));
-    var result = transfer_at_four(hues, weights > vec4(0.0));
+    let colours = transfer_at_four(hues, weights > vec4(0.0));
     let opacities = transfer_at_four(densities, weights > vec4(0.0));
-    for (var i = 0u; i < 4u; i += 1u) {
-        result[i].w = opacities[i].w;
-    }
-    return result;
+    return mat4x4(
+        vec4(colours[0].rgb, opacities[0].a),
+        vec4(colours[1].rgb, opacities[1].a),
+        vec4(colours[2].rgb, opacities[2].a),
+        vec4(colours[3].rgb, opacities[3].a),
+    );
 }
