@@ -12,9 +12,9 @@ use crate::tiles::Job;
 
 /// Bundles of a pilot: one in so many, and no more than so many. What is smaller than the least pilot is
 /// analysed in any case.
-const ONE_IN: u64 = 32;
+const ONE_IN: u64 = 64;
 const MOST: u64 = 1024;
-const LEAST: u64 = 16;
+const LEAST: u64 = 8;
 
 /// The share of cells that may be left to be sampled. On a software adapter an analysis costs 0.6 to 1.4 of full
 /// sampling's ray cast, and a cell of which parts are sampled nearly as much as a whole one: measured on lattices, a
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn small_pictures_have_no_pilot_and_large_ones_a_short_one() {
         let counts = [511, 512, 4096, 32_768, 4_000_000].map(pilot_of);
-        assert_eq!(counts, [None, Some(16), Some(128), Some(1024), Some(1024)]);
+        assert_eq!(counts, [None, Some(8), Some(64), Some(512), Some(1024)]);
     }
 
     #[test]
