@@ -258,6 +258,40 @@ fn a_run_goes_on_after_a_bad_frame() {
 }
 
 #[test]
+fn stats_go_to_standard_output_once_where_that_is_wanted() {
+    let folder = folder();
+    let render = |more: &[&str]| {
+        let mut arguments = vec!["render", "--size", "8x8", "--stats", "-"];
+        arguments.extend(more);
+        sphcast(folder.path(), &arguments)
+    };
+    let one = render(&["one.vtk", "--out", "one.png"]);
+    let stats: serde_json::Value = serde_json::from_str(&one.out).unwrap();
+    assert_eq!(stats["particles"], 20);
+    // One part of several, and a frame that cannot be read.
+    let some = render(&["run", "--out", "out", "--shard", "1/1"]);
+    assert_eq!(some.status, 1);
+    let stats: Vec<serde_json::Value> = serde_json::from_str(&some.out).unwrap();
+    assert_eq!(stats.iter().map(|entry| &entry["frame"]).collect::<Vec<_>>(), [0, 2]);
+    assert!(!files_in(folder.path()).iter().any(|name| name.starts_with('-')));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link_and_a_device_a_device() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("kept")).unwrap();
+    fs::write(folder.path().join("kept/there.png"), "old").unwrap();
+    std::os::unix::fs::symlink("kept/there.png", folder.path().join("link.png")).unwrap();
+    let arguments = ["render", "one.vtk", "--size", "8x8", "--out", "link.png", "--stats", "/dev/stdout"];
+    let made = sphcast(folder.path(), &arguments);
+    assert_eq!(made.status, 0, "{}", made.err);
+    assert!(fs::symlink_metadata(folder.path().join("link.png")).unwrap().is_symlink());
+    assert!(fs::read(folder.path().join("kept/there.png")).unwrap().starts_with(b"\x89PNG"));
+    assert_eq!(serde_json::from_str::<serde_json::Value>(&made.out).unwrap()["particles"], 20);
+}
+
+#[test]
 fn a_picture_is_written_whole_or_not_at_all() {
     let folder = folder();
     fs::create_dir(folder.path().join("taken.png")).unwrap();

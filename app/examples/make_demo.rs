@@ -11,7 +11,7 @@ use std::path::Path;
 
 use anyhow::{Context, bail};
 use sphcast::frames::{PackedRun, Sequence};
-use sphcast::image_file::write_whole;
+use sphcast::whole_file::write_whole;
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

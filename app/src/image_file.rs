@@ -3,11 +3,11 @@
 mod exr;
 mod png;
 
-use std::fs::File;
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 use crate::io_error::describe;
+use crate::whole_file::write_file;
 use anyhow::{Context, anyhow, bail};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
@@ -132,11 +132,6 @@ pub fn write_rows<T>(
     }
 }
 
-/// The path of a file, and why it cannot be written.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Unwritten(String);
-
 /// The error by which a producer learns that the file takes no more rows.
 #[derive(Debug, thiserror::Error)]
 #[error("the file takes no more rows")]
@@ -181,40 +176,6 @@ pub fn read(path: &Path) -> anyhow::Result<Pixels> {
     };
     let data = image.pixels().map(|pixel| if linear { pixel.0 } else { straight(pixel.0) }).collect();
     Ok(Pixels { width, height, data })
-}
-
-/// Writes `bytes` to `path` so that a reader, and whoever comes after a crash, finds the old file or
-/// the new one, and never a part.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    write_file(path, |file| Ok(file.write_all(bytes)?))
-}
-
-/// Gives `path` what `write` puts into a file, whole or not at all.
-///
-/// # Errors
-/// [`Unwritten`].
-pub fn write_file(path: &Path, write: impl FnOnce(&mut File) -> anyhow::Result<()>) -> anyhow::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let write = || -> anyhow::Result<()> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".sphcast-");
-        // A temporary file is for its owner's eyes only; the picture is as open as other new files.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.tempfile_in(folder)?;
-        write(file.as_file_mut())?;
-        // Only then is a name that is there after a crash that of a whole file.
-        file.as_file().sync_all()?;
-        file.persist(path).map_err(|error| error.error)?;
-        Ok(())
-    };
-    write().map_err(|error| {
-        let what = error.downcast_ref().map_or_else(|| error.to_string(), describe);
-        Unwritten(format!("{}: cannot be written: {what}", path.display())).into()
-    })
 }
 
 /// One pixel of a PNG: over the background and opaque, or with straight alpha.

@@ -14,6 +14,8 @@ mod overlay;
 mod paraview;
 pub mod places;
 pub mod projection;
+mod say;
 pub mod scene;
 pub mod view_file;
 pub mod viewer;
+pub mod whole_file;

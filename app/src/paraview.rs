@@ -12,8 +12,8 @@ use renderer::colour_space::{diverging, from_lab, to_lab, to_linear, to_srgb};
 use renderer::{ColourPoint, ControlPoint, MapView, TransferFunction, TransferView};
 use serde_json::{Map, Value, json};
 
-use crate::image_file::write_whole;
 use crate::io_error::describe;
+use crate::whole_file::write_whole;
 
 /// A segment is cut into so many parts, where its colour space is not linear light.
 const PARTS: u32 = 8;

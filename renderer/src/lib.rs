@@ -74,6 +74,8 @@ mod picture;
 mod pilot;
 mod placement;
 mod plan;
+#[cfg(test)]
+mod random;
 mod ray;
 mod read_cells;
 mod renderer;

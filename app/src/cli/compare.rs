@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 
-use super::say::say;
 use super::view::unit;
 use crate::difference::{Difference, difference};
 use crate::image_file;
+use crate::say::say;
 
 /// Compare two pictures: the largest and the mean difference, and how many pixels differ.
 ///

@@ -4,9 +4,9 @@ use anyhow::{Context, bail};
 use serde::Serialize;
 
 use super::SequenceArguments;
-use super::say::say;
 use crate::export::one_line;
 use crate::frames::{Column, Frame, median_spacing};
+use crate::say::say;
 use crate::scene::{Selection, Support};
 
 /// Tell what is in a frame: fields and their ranges, particles, bounding box, spacing, support radius.

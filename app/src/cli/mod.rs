@@ -6,7 +6,6 @@ mod console;
 mod info;
 mod interrupt;
 mod render;
-mod say;
 mod view;
 
 use std::ffi::OsString;

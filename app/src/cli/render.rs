@@ -58,7 +58,8 @@ pub struct RenderArguments {
     /// Write the pictures with the classes of their cells over them: what was sampled, and what was left out
     #[arg(long, value_name = "PATH.png")]
     overlay: Option<PathBuf>,
-    /// Write what the pictures cost: sizes, evaluations, milliseconds; renders each once more in full, to count
+    /// Write what the pictures cost: sizes, evaluations, milliseconds; renders each once more in full, to count.
+    /// `-` stands for standard output
     #[arg(long, value_name = "PATH.json")]
     stats: Option<PathBuf>,
     /// Values of each pixel that an EXR holds beside its colour
@@ -102,7 +103,8 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let overlay = arguments.overlay.as_ref().map(|path| Overlay::new(path, frames, output));
     let overlay = overlay.transpose().map_err(wrong("--overlay"))?;
     let stats = arguments.stats.as_ref().map(|path| {
-        let path = arguments.shard.map_or_else(|| path.clone(), |shard| shard.own(path));
+        let shard = arguments.shard.filter(|_| !StatsFile::is_standard_output(path));
+        let path = shard.map_or_else(|| path.clone(), |shard| shard.own(path));
         StatsFile::new(path, frames > 1, arguments.resume)
     });
     let (shard, resumes) = (arguments.shard, arguments.resume);

@@ -7,7 +7,7 @@ use anyhow::Context;
 use renderer::{Gpu, Renderer, View};
 
 use super::{Film, Layer, Listener, Made, Overlay, Pictures, Run, Shard, StatsFile, Steady, Target};
-use crate::image_file;
+use crate::whole_file::write_whole;
 
 /// Pictures or a video of frames of a run.
 pub struct Order {
@@ -55,7 +55,7 @@ impl Order {
         })?;
         pictures.finish()?;
         if let Some(path) = view_file {
-            image_file::write_whole(&path, film.common_view().to_json().as_bytes())?;
+            write_whole(&path, film.common_view().to_json().as_bytes())?;
         }
         Ok(Summary { frames: film.len(), kept, failed })
     }

@@ -9,8 +9,9 @@ use renderer::{Band, BandLayers, CellMap, Picture, Renderer, Scene, Stats, View}
 use super::video::Video;
 use super::{Fatal, Film, Layer, Output, StatsFile, layer, record};
 use crate::annotate::Annotations;
-use crate::image_file::{self, Format, Header, Pixels, Rows, Unwritten};
+use crate::image_file::{self, Format, Header, Pixels, Rows};
 use crate::overlay::{self, Lettering};
+use crate::whole_file::Unwritten;
 
 /// Where pictures of the classes of the cells go.
 pub struct Overlay {

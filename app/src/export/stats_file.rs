@@ -1,12 +1,13 @@
-//! `--stats`: what the pictures cost, in a file that is whole at any time.
+//! `--stats`: what the pictures cost, in a file that is whole at any time, or on standard output at the end.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use renderer::Stats;
 use serde_json::Value;
 
-use crate::image_file;
+use crate::say::say;
+use crate::whole_file::write_whole;
 
 /// Stats of the pictures so far.
 pub struct StatsFile {
@@ -22,7 +23,15 @@ pub struct StatsFile {
 /// Key of a frame's number in an array.
 const FRAME: &str = "frame";
 
+/// In place of a file's name: standard output.
+const STANDARD_OUTPUT: &str = "-";
+
 impl StatsFile {
+    /// Whether `path` stands for standard output.
+    pub fn is_standard_output(path: &Path) -> bool {
+        path.as_os_str() == STANDARD_OUTPUT
+    }
+
     /// With `resumes`, what a file at `path` says of pictures that are left as they are stays there.
     pub fn new(path: PathBuf, several: bool, resumes: bool) -> StatsFile {
         let text = if resumes { std::fs::read_to_string(&path).unwrap_or_default() } else { String::new() };
@@ -40,7 +49,7 @@ impl StatsFile {
             entry.insert(FRAME.to_owned(), number.into());
         }
         self.entries.insert(number, entry);
-        self.write()
+        if StatsFile::is_standard_output(&self.path) { Ok(()) } else { self.write() }
     }
 
     /// Keeps what the file said of frame `number`.
@@ -50,6 +59,7 @@ impl StatsFile {
         }
     }
 
+    /// Writes what there is.
     pub fn write(&self) -> anyhow::Result<()> {
         let entries: Vec<&Value> = self.entries.values().collect();
         let text = match (self.several, entries.as_slice()) {
@@ -58,6 +68,10 @@ impl StatsFile {
             (false, _) => return Ok(()),
             (true, entries) => serde_json::to_string_pretty(entries),
         };
-        image_file::write_whole(&self.path, format!("{}\n", text?).as_bytes())
+        let text = format!("{}\n", text?);
+        if StatsFile::is_standard_output(&self.path) {
+            return say(text);
+        }
+        write_whole(&self.path, text.as_bytes())
     }
 }

@@ -150,7 +150,7 @@ impl Desk {
         let now = Instant::now();
         self.take_reports();
         self.take_done();
-        self.take_outcomes();
+        self.take_outcomes(ui.ctx());
         self.take_drops(ui.ctx());
         let before = self.session.view.clone();
         self.keeping.settings.keymap().install(ui.ctx());

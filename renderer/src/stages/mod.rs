@@ -3,6 +3,8 @@
 
 pub(crate) mod adapt;
 pub(crate) mod cast;
+#[cfg(test)]
+mod found;
 pub(crate) mod grid;
 #[cfg(test)]
 mod layout;

@@ -193,19 +193,12 @@ mod tests {
     use super::*;
     use crate::particles::{ParticleSet, RawParticle};
     use crate::placement::{LARGEST_RATIO, Scale, Spread};
+    use crate::random::Random;
     use crate::view::MapView;
 
-    /// Numbers in [0, 1) that look random.
-    struct Random(u64);
-
     impl Random {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        }
-
         fn view(&mut self) -> TransferView {
-            let mut channel = || self.next() as f32;
+            let mut channel = || self.unit();
             let points = (0..9).map(|_| ControlPoint {
                 u: channel(),
                 rgb: [channel(), channel(), channel()],
@@ -271,7 +264,7 @@ mod tests {
                 let device = TransferFunction::on_device(&view, &quantity, [None; 2]).unwrap();
                 let function = view.function().unwrap();
                 for _ in 0..2000 {
-                    let u = random.next();
+                    let u = f64::from(random.unit());
                     if is_smooth(&function, u as f32) {
                         let (found, expected) =
                             (device.sample(placement.device(u) as f32), function.sample(u as f32));
@@ -321,7 +314,7 @@ mod tests {
             let function = view.function().unwrap();
             let at = |placement: &Placement, u: f64| device.sample(placement.device(u) as f32);
             for _ in 0..2000 {
-                let u = random.next();
+                let u = f64::from(random.unit());
                 let [of_colour, of_opacity] = both.placements();
                 let ([r, g, b, _], [.., a]) = (at(&of_colour, u), at(&of_opacity, u));
                 let expected = function.sample(u as f32);

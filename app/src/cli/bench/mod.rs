@@ -23,10 +23,10 @@ use anyhow::{Context, bail};
 use renderer::Renderer;
 
 use super::console::Console;
-use super::say::say;
 use super::view::{Tolerance, tolerance};
 use super::{DeviceArguments, SequenceArguments, ShownArguments};
 use crate::export::{Film, Output};
+use crate::say::say;
 use measure::Measurement;
 use report::Report;
 use settings::Setting;

@@ -9,7 +9,7 @@ use super::measure::Measurement;
 use super::summary::Summary;
 use super::{csv, plot};
 use crate::export::Film;
-use crate::image_file;
+use crate::whole_file::write_whole;
 
 /// Everything: `bench.json`.
 #[derive(Serialize)]
@@ -101,7 +101,7 @@ impl Report {
             ("time-against-error.svg", plot::time_against_error(self)),
         ];
         for (name, text) in files.into_iter().chain(growth) {
-            image_file::write_whole(&folder.join(name), text.as_bytes())?;
+            write_whole(&folder.join(name), text.as_bytes())?;
         }
         Ok(())
     }

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use super::{Desk, Done, Opening};
 use crate::frames::Sequence;
+use crate::view_file;
 use crate::viewer::dialogs::Purpose;
 use crate::viewer::exports::Plan;
 use crate::viewer::kept::Left;
 use crate::viewer::run::{self, Run};
-use crate::{image_file, view_file};
+use crate::whole_file::write_whole;
 
 impl Desk {
     pub(super) fn chosen(&mut self, purpose: Purpose, paths: Vec<PathBuf>) {
@@ -85,7 +86,7 @@ impl Desk {
     pub(super) fn save_view(&self, path: PathBuf) {
         let view = self.session.saved_view();
         self.work(move || {
-            let saved = image_file::write_whole(&path, view.to_json().as_bytes());
+            let saved = write_whole(&path, view.to_json().as_bytes());
             Done::ViewSaved(path, saved)
         });
     }

@@ -17,6 +17,7 @@ use crate::viewer::dialogs;
 use crate::viewer::inspect::pointing::Pointed;
 use crate::viewer::inspect::tracked::Located;
 use crate::viewer::kept::Left;
+use crate::viewer::keys::shortcuts::{Action, with_keys};
 use crate::viewer::render_thread::Report;
 use crate::viewer::session::Numbering;
 
@@ -153,13 +154,16 @@ impl Desk {
         }
     }
 
-    pub(super) fn take_outcomes(&mut self) {
+    pub(super) fn take_outcomes(&mut self, context: &egui::Context) {
         match self.dialogs.poll() {
             Some(dialogs::Outcome::Chosen(purpose, paths)) => self.chosen(purpose, paths),
-            Some(dialogs::Outcome::Unavailable) => self.session.complain(
-                "No file dialog could be opened: install xdg-desktop-portal or zenity, drop files on the \
-                 window, name them on the command line, or save with Ctrl+Shift+E",
-            ),
+            Some(dialogs::Outcome::Unavailable) => {
+                let saving = with_keys(context, "or save in this folder", Action::QuickSave);
+                self.session.complain(format!(
+                    "No file dialog could be opened: install xdg-desktop-portal or zenity, drop files on the window, \
+                     name them on the command line, {saving}",
+                ));
+            }
             Some(dialogs::Outcome::Dismissed) => self.session.log("dialog closed"),
             None => {}
         }

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow, ensure};
 use renderer::TransferView;
 
-use crate::image_file::write_whole;
 use crate::io_error::describe;
 use crate::places;
+use crate::whole_file::write_whole;
 
 /// A saved function.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,8 +15,8 @@ use anyhow::{Context, anyhow};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::image_file;
 use crate::io_error::describe;
+use crate::whole_file::write_whole;
 
 pub use last_session::LastSession;
 pub use recent::{Recent, RecentRuns};
@@ -84,7 +84,7 @@ pub fn write<T: Serialize>(path: &Path, kept: &T) -> anyhow::Result<()> {
         std::fs::create_dir_all(folder)
             .map_err(|error| anyhow!("{}: cannot be made: {}", folder.display(), describe(&error)))?;
     }
-    image_file::write_whole(path, format!("{}\n", serde_json::to_string_pretty(kept)?).as_bytes())
+    write_whole(path, format!("{}\n", serde_json::to_string_pretty(kept)?).as_bytes())
 }
 
 /// Seconds since 1970.

@@ -172,25 +172,20 @@ fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
     (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), share.reached);
 }
 
+// The upper bound of Σ |q − λ|·m.
+fn left_out_of(e: Expansion, lambda: vec4<f32>) -> vec4<f32> {
+    return remainder(e.rest, e.rest_q, e.rest_qq, lambda);
+}
+
 // The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
 fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f32> {
     let relative = less(e.charge, lambda, e.weight);
     let known = side * relative.value + swing(relative, column) + sag(relative, column, side);
-    return known + twist(relative.cubic, column) + remainder(e, lambda);
+    return known + twist(relative.cubic, column) + left_out_of(e, lambda);
 }
 
-// Relative error of a sum of some hundred terms of f32, to the sum of their magnitudes.
-const SUM_ROUNDING: f32 = 4e-6;
 // The square of a quantity, times a sum of weights, is a number. (Weights are at most 10¹⁵.)
 const LARGEST_QUANTITY: f32 = 1e8;
-
-// The upper bound of Σ |q − λ|·m. Where all q are close to λ its parts cancel, and what is left may be less than
-// their rounding.
-fn remainder(e: Expansion, lambda: vec4<f32>) -> vec4<f32> {
-    let rest_qq = e.rest_qq - lambda * (2.0 * e.rest_q - lambda * e.rest);
-    let rounding = SUM_ROUNDING * (e.rest_qq + abs(lambda) * (2.0 * abs(e.rest_q) + abs(lambda) * e.rest));
-    return sqrt(e.rest) * sqrt(max(rest_qq, vec4(0.0)) + rounding);
-}
 
 // An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
 //
@@ -224,7 +219,7 @@ fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column,
     let lift = 0.5 * (most + least) / e.weight.value;
     let weight_bent = sag_either_way(e.weight, column) + twist(e.weight.cubic, column) + e.rest;
     let weight_off = rise * weight_bent + abs(lift) * (swing(e.weight, column) + weight_bent);
-    let off = 0.5 * (most - least) + twist(relative.cubic, column) + weight_off + remainder(e, mean);
+    let off = 0.5 * (most - least) + twist(relative.cubic, column) + weight_off + left_out_of(e, mean);
     // Half floats have 11 bits.
     let rounding = 0.001 * rise + sum_rounding(e, least_weight) + 4e-6;
     let all_off = min(off / least_weight + rounding, vec4(WIDEST)) * 1.001;

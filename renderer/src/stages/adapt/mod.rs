@@ -7,6 +7,8 @@
 mod paper;
 
 pub(crate) mod entries;
+#[cfg(test)]
+mod remainder_tests;
 
 use std::collections::BTreeMap;
 
@@ -45,6 +47,8 @@ pub(crate) struct Adapt {
 
 /// A kernel's code, what is left out, and how many fields there are.
 type Variant = (u32, Without, Fields);
+
+const REMAINDER_WGSL: &str = include_str!("remainder.wgsl");
 
 /// Columns of bricks of a cell.
 pub(crate) const COLUMNS: u64 = 16;
@@ -200,6 +204,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             include_str!("jets.wgsl"),
             include_str!("cubic.wgsl"),
             include_str!("taylor.wgsl"),
+            REMAINDER_WGSL,
             include_str!("bricks.wgsl"),
             include_str!("sheaves.wgsl"),
             expansions_wgsl(fields),

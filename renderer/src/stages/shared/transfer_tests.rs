@@ -4,78 +4,44 @@
 use bytemuck::Pod;
 
 use super::{TRANSFER_WGSL, TransferTables};
-use crate::gpu::{Access, Buffer, Gpu, GpuOptions, Pipeline, PipelineDescription};
+use crate::gpu::{Access, Gpu, GpuOptions};
+use crate::random::Random;
+use crate::stages::found::Function;
 use crate::transfer::{ControlPoint, TransferFunction};
 
-/// What the device makes of each input: `found_in` in WGSL, from the given type to the other one.
+/// What the device makes of each input: `call` in WGSL, from the first type to the other one.
 fn found<I: Pod, O: Pod>(
     gpu: &Gpu,
     transfer: &TransferFunction,
     inputs: &[I],
-    [input, output, found_in]: [&str; 3],
+    types: [&str; 2],
+    call: &str,
 ) -> Vec<O> {
     let mut tables = TransferTables::new(gpu);
     tables.write(gpu, transfer).unwrap();
-    let mut read = Buffer::storage(gpu, "inputs", size_of::<I>() as u64);
-    read.write(gpu, inputs).unwrap();
-    let mut written = Buffer::storage(gpu, "outputs", size_of::<O>() as u64);
-    written.reserve(gpu, inputs.len() as u64).unwrap();
-    let main = format!(
-        "
-        @group(0) @binding(0) var<storage, read> buckets: array<u32>;
-        @group(0) @binding(1) var nodes: texture_2d<f32>;
-        @group(0) @binding(2) var<storage, read> inputs: array<{input}>;
-        @group(0) @binding(3) var<storage, read_write> outputs: array<{output}>;
-        @compute @workgroup_size(1)
-        fn find(@builtin(workgroup_id) workgroup: vec3<u32>) {{
-            let given = inputs[workgroup.x];
-            outputs[workgroup.x] = {found_in};
-        }}
-        "
-    );
-    let pipeline = Pipeline::new(
-        gpu,
-        &PipelineDescription {
-            label: "find",
-            sources: &[TRANSFER_WGSL, &main],
-            entry_point: "find",
-            constants: &[],
-            bindings: &[Access::Read, Access::Texture, Access::Read, Access::Write],
-        },
-    );
+    let declared = "
+        @group(0) @binding(2) var<storage, read> buckets: array<u32>;
+        @group(0) @binding(3) var nodes: texture_2d<f32>;
+    ";
     let nodes = wgpu::BindingResource::TextureView(&tables.nodes);
-    let resources = [tables.buckets.binding(), nodes, read.binding(), written.binding()];
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut pass = encoder.begin_compute_pass(&Default::default());
-    pipeline.dispatch(gpu, &mut pass, &resources, inputs.len() as u64);
-    drop(pass);
-    let found = written.read_back(gpu, &mut encoder, inputs.len() as u64);
-    gpu.queue.submit([encoder.finish()]);
-    found.take(gpu).unwrap()
+    let resources = &[(Access::Read, tables.buckets.binding()), (Access::Texture, nodes)];
+    Function { sources: &[declared, TRANSFER_WGSL], resources, types, call }.of(gpu, inputs)
 }
 
 type Range = [[f32; 4]; 2];
 
 /// Least and greatest colour and opacity over each interval.
 fn ranges(gpu: &Gpu, transfer: &TransferFunction, intervals: &[[f32; 2]]) -> Vec<Range> {
-    found(gpu, transfer, intervals, ["vec2<f32>", "Extremes", "transfer_range(given.x, given.y)"])
+    found(gpu, transfer, intervals, ["vec2<f32>", "Extremes"], "transfer_range(given.x, given.y)")
 }
 
 /// Colours and opacities at those of four places that are not negative.
 fn shades(gpu: &Gpu, transfer: &TransferFunction, places: &[[f32; 4]]) -> Vec<[[f32; 4]; 4]> {
     let at_four = "transfer_at_four(given, !(given < vec4(0.0)))";
-    found(gpu, transfer, places, ["vec4<f32>", "mat4x4<f32>", at_four])
+    found(gpu, transfer, places, ["vec4<f32>", "mat4x4<f32>"], at_four)
 }
 
-/// Numbers in [0, 1) from a seed: the same on every machine.
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1 << 24) as f32
-    }
-
     fn point(&mut self, u: f32) -> ControlPoint {
         let opacity = match self.unit() {
             share if share < 0.2 => 0.0,
