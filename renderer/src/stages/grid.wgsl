@@ -200,13 +200,26 @@ fn run_of(column: u32, first_particle: u32) -> Run {
 fn walk(workgroup: u32, local: u32, scattering: bool) {
     let first_particle = workgroup * GROUP;
     let columns = share_columns(first_particle + local, local);
-    for (var column = local; column < columns; column += GROUP) {
-        let run = run_of(column, first_particle);
-        for (var cell = run.first; cell < run.end; cell += 1u) {
-            let place = atomicAdd(&cells[cell], 1u);
-            if scattering && place < tile.pair_capacity {
-                pairs[place] = run.particle;
+    var column = local;
+    loop {
+        let run = run_of(min(column, max(columns, 1u) - 1u), first_particle);
+        var cell = run.first;
+        let end = select(cell, run.end, column < columns);
+        loop {
+            if cell < end {
+                let place = atomicAdd(&cells[cell], 1u);
+                if scattering && place < tile.pair_capacity {
+                    pairs[place] = run.particle;
+                }
             }
+            cell += 1u;
+            if cell >= end {
+                break;
+            }
+        }
+        column += GROUP;
+        if column >= columns {
+            break;
         }
     }
 }

@@ -109,19 +109,36 @@ fn offer_group(
     return workgroupUniformLoad(&open_columns) > 0u;
 }
 
-// Makes offers from front to back until nothing more is seen; returns the layer after the last one.
+// Makes offers from front to back until nothing more is seen; returns the layer after the last one. Groups follow upon
+// groups without a look at bounds that none of them lacks.
 fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front>) -> u32 {
     let slope = column.direction.xy;
     let paths = array(paths_of(0u, slope), paths_of(1u, slope), paths_of(2u, slope), paths_of(3u, slope));
     var walk = start_walk(tile.layers);
     var is_open = true;
-    while is_open && has_group(&walk, place.index, lane) {
+    if !has_group(&walk, place.index, lane) {
+        end_column(front);
+        return tile.layers;
+    }
+    loop {
         survey(walk, place.index, place.axis, lane);
         bound_stretch(walk, place.index, place.axis, lane);
         let end = min(walk.next + STRETCH_CELLS, walk.count);
-        while is_open && walk.next < end {
-            bound_group(walk, place.index, place.axis, lane);
-            is_open = offer_group(&walk, place, paths, lane, front);
+        var by_columns = workgroupUniformLoad(&cells_by_columns);
+        loop {
+            by_columns = bound_group(walk, by_columns, place.index, place.axis, lane);
+            loop {
+                is_open = offer_group(&walk, place, paths, lane, front);
+                if !is_open || walk.next >= end || of_group(by_columns, walk) != 0u {
+                    break;
+                }
+            }
+            if !is_open || walk.next >= end {
+                break;
+            }
+        }
+        if !is_open || !has_group(&walk, place.index, lane) {
+            break;
         }
     }
     end_column(front);
@@ -133,7 +150,10 @@ fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front
 fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
     var taken = 0.0;
     var walk = start_walk(end_layer);
-    while has_group(&walk, place.index, lane) {
+    if !has_group(&walk, place.index, lane) {
+        return taken;
+    }
+    loop {
         let cell = next_group(&walk, place.index, place.number);
         var mine = Offers(vec4(NONE), vec4(NONE));
         var seen = false;
@@ -163,6 +183,9 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
             file_cell(cell.cell, place.number);
         }
         workgroupBarrier();
+        if !has_group(&walk, place.index, lane) {
+            break;
+        }
     }
     return taken;
 }

@@ -14,8 +14,13 @@ var<workgroup> slots: array<u32, STRETCH_CELLS>;
 // added: lanes that run together then each add one of theirs, not all the same one.
 fn met_by(column: Column, first: u32, loaded: u32) -> u32 {
     var met = 0u;
-    for (var i = 0u; i < loaded; i += 1u) {
-        met |= select(0u, 1u << i, may_reach(column, balls[first + i]));
+    var i = 0u;
+    loop {
+        met |= select(0u, 1u << i, i < loaded && may_reach(column, balls[first + i]));
+        i += 1u;
+        if i >= loaded {
+            break;
+        }
     }
     return met;
 }
@@ -56,22 +61,39 @@ fn expand(task: Task, around: Column, reference: Quantity, most: u32, axis: vec2
     let first_ball = task.number * BATCH;
     var expansions = no_expansions();
     var evaluations = 0u;
-    for (var base = 0u; base < most; base += BATCH) {
+    var base = 0u;
+    loop {
         let first = task.cell.first + base;
         let loaded = min(BATCH, max(end, first) - first);
-        for (var i = lane % task.lanes; i < loaded; i += task.lanes) {
-            let particle = particle_in_cell(first + i, middle, depths.x, reference);
-            balls[first_ball + i] = particle.ball;
-            loads[first_ball + i] = Load(particle.weight, particle.quantity);
+        var i = lane % task.lanes;
+        loop {
+            if i < loaded {
+                let particle = particle_in_cell(first + i, middle, depths.x, reference);
+                balls[first_ball + i] = particle.ball;
+                loads[first_ball + i] = Load(particle.weight, particle.quantity);
+            }
+            i += task.lanes;
+            if i >= loaded {
+                break;
+            }
         }
         workgroupBarrier();
         var met = met_by(around, first_ball, loaded);
-        for (var left = countOneBits(met); left > 0u; left -= 1u) {
-            let particle = first_ball + firstTrailingBit(met);
-            evaluations += add_particle(&expansions, around, balls[particle], loads[particle]);
-            met &= met - 1u;
+        loop {
+            if met != 0u {
+                let particle = first_ball + firstTrailingBit(met);
+                evaluations += add_particle(&expansions, around, balls[particle], loads[particle]);
+                met &= met - 1u;
+            }
+            if met == 0u {
+                break;
+            }
         }
         workgroupBarrier();
+        base += BATCH;
+        if base >= most {
+            break;
+        }
     }
     add_to_tally(0u, evaluations);
     return expansions;
@@ -116,12 +138,18 @@ fn bound_stretch(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
     }
 }
 
-// Bounds the bricks of those cells of the next group that go by columns.
-fn bound_group(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
-    let wanted = workgroupUniformLoad(&cells_by_columns) >> (walk.next % STRETCH_CELLS);
-    if (wanted & ((1u << GROUP_CELLS) - 1u)) != 0u {
+// The bits of the walk's next group among those of its stretch.
+fn of_group(cells: u32, walk: Walk) -> u32 {
+    return cells >> (walk.next % STRETCH_CELLS) & ((1u << GROUP_CELLS) - 1u);
+}
+
+// Bounds the bricks of those cells of the next group that go by columns, of which bits tell; returns the others' bits.
+fn bound_group(walk: Walk, by_columns: u32, index: u32, axis: vec2<f32>, lane: u32) -> u32 {
+    let wanted = of_group(by_columns, walk);
+    if wanted != 0u {
         bound_bricks(walk, index, axis, 1u, wanted, lane);
     }
+    return by_columns & ~(wanted << (walk.next % STRETCH_CELLS));
 }
 
 // Values of a column of the cell that is number `place` of the walk's, where anything is seen there.

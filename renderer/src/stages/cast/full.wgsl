@@ -24,7 +24,12 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
         let so_far = pixels[pixel];
         ray = Ray(so_far.rgb, so_far.w);
     }
-    for (var layer = next_filled(index, 0u); layer < tile.layers; layer = next_filled(index, layer + 1u)) {
+    var layer = next_filled(index, 0u);
+    if layer == tile.layers {
+        pixels[pixel] = vec4(ray.colour, ray.transparency);
+        return;
+    }
+    loop {
         let place = index * tile.layers + layer;
         let cell = cast_cell(layer, first_of_cell(place), cells[place], axis, from_axis, ALL_BRICKS, lane);
         ray.colour += ray.transparency * seen_in_cell(cell, layer);
@@ -40,7 +45,8 @@ fn cast_rays(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
             settle_tally(0u, EVALUATIONS);
             if COUNT_INSIDE { settle_tally(2u, EVALUATIONS_INSIDE); }
         }
-        if workgroupUniformLoad(&open_rays) == 0u {
+        layer = next_filled(index, layer + 1u);
+        if workgroupUniformLoad(&open_rays) == 0u || layer >= tile.layers {
             break;
         }
     }

@@ -80,7 +80,8 @@ fn sample_bricks(
     var a = unit_of(lane, units);
     var b = unit_of(lane + LANES, units);
     var done = 0u;
-    for (var base = first; base < end; base += LANES) {
+    var base = first;
+    loop {
         if base + lane < end {
             load_particle(base + lane, lane, middle, depths.x, reference);
         }
@@ -93,6 +94,10 @@ fn sample_bricks(
             done += add_to_unit(&b, axis, balls[i], loads[i]);
         }
         workgroupBarrier();
+        base += LANES;
+        if base >= end {
+            break;
+        }
     }
     finish_unit(a, axis, reference, depths.x, coarse);
     finish_unit(b, axis, reference, depths.x, coarse);
@@ -106,9 +111,11 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
     for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
         strands[4u * ray + brick_layer] = middle;
     }
-    let rays = select(0u, 4u, is_between && chunk.between == SLOPES);
+    if !is_between || chunk.between != SLOPES {
+        return;
+    }
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
-    for (var ray = 4u * column; ray < 4u * column + rays; ray += 1u) {
+    for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
         let scale = depth * length(vec3(axis + ray_from_axis(ray), 1.0)) * frame.path_scale;
         let charges = quantities_on_slope(cell, ray, brick_layer);
         let paths = frame.slab_depth[brick_layer] * scale;

@@ -118,7 +118,8 @@ fn sum_particles(
     // A loop, not a condition: software adapters go through conditions whether they hold or not.
     let level_2 = select(0u, 1u, SOME_SHOWN && sampled > ALL_BRICKS && chunk.between == LEVELS_BETWEEN);
     want_layers(select(sampled & ALL_BRICKS, ALL_BRICKS, level_2 > 0u), lane);
-    for (var base = first; base < end; base += LANES) {
+    var base = first;
+    loop {
         clear_met(lane);
         workgroupBarrier();
         if base + lane < end {
@@ -127,22 +128,30 @@ fn sum_particles(
         workgroupBarrier();
         turn_met(lane);
         workgroupBarrier();
-        for (var left = met_by(lane); any(left != vec2(0u)); left = without_next(left)) {
+        var left = met_by(lane);
+        loop {
             let i = next_of(left);
             let arc = arc_through(balls[i], from_axis, direction, direction_squared);
-            if arc.top <= 0.0 {
-                continue;
-            }
             let load = loads[i];
-            if is_sampled(sampled, 0u) { count += add_samples(at[0], arc, load, &w0, &q0); }
-            if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, load, &w1, &q1); }
-            if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, load, &w2, &q2); }
-            if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, load, &w3, &q3); }
-            for (var once = 0u; once < level_2; once += 1u) {
-                count += add_samples(level_2_offsets(), arc, load, &w_coarse, &q_coarse);
+            if any(left != vec2(0u)) && arc.top > 0.0 {
+                if is_sampled(sampled, 0u) { count += add_samples(at[0], arc, load, &w0, &q0); }
+                if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, load, &w1, &q1); }
+                if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, load, &w2, &q2); }
+                if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, load, &w3, &q3); }
+                for (var once = 0u; once < level_2; once += 1u) {
+                    count += add_samples(level_2_offsets(), arc, load, &w_coarse, &q_coarse);
+                }
+            }
+            left = without_next(left);
+            if all(left == vec2(0u)) {
+                break;
             }
         }
         workgroupBarrier();
+        base += LANES;
+        if base >= end {
+            break;
+        }
     }
     add_to_tally(0u, count.x);
     if COUNT_INSIDE { add_to_tally(2u, count.y); }

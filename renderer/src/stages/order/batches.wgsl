@@ -50,6 +50,11 @@ fn references_of(cell: u32) -> vec2<u32> {
     return vec2(select(ends[max(cell, 1u) - 1u], 0u, cell == 0u), ends[cell]);
 }
 
+// The same, or none beyond the last cell.
+fn references_in_batch(cell: u32, cell_count: u32) -> vec2<u32> {
+    return select(vec2(0u), references_of(cell), cell < cell_count);
+}
+
 fn bucket_of(key: u32, cell: vec2<u32>) -> u32 {
     let count = cell.y - cell.x;
     // Exact, and so monotone.
@@ -63,14 +68,26 @@ fn load(first: u32, cell_count: u32, lane: u32) {
         atomicStore(&counters[i], 0u);
     }
     workgroupBarrier();
-    for (var number = lane / LANES_OF_CELL; number < cell_count; number += LANES / LANES_OF_CELL) {
-        let cell = references_of(number);
-        for (var i = cell.x + lane % LANES_OF_CELL; i < cell.y; i += LANES_OF_CELL) {
-            let particle = pairs[first + i];
-            let key = (key_of(particle) & ~NUMBERS) | i;
-            particles[i] = particle;
-            keys[i] = key;
-            atomicAdd(&counters[bucket_of(key, cell)], 1u);
+    var number = lane / LANES_OF_CELL;
+    loop {
+        let cell = references_in_batch(number, cell_count);
+        var i = cell.x + lane % LANES_OF_CELL;
+        loop {
+            if i < cell.y {
+                let particle = pairs[first + i];
+                let key = (key_of(particle) & ~NUMBERS) | i;
+                particles[i] = particle;
+                keys[i] = key;
+                atomicAdd(&counters[bucket_of(key, cell)], 1u);
+            }
+            i += LANES_OF_CELL;
+            if i >= cell.y {
+                break;
+            }
+        }
+        number += LANES / LANES_OF_CELL;
+        if number >= cell_count {
+            break;
         }
     }
     workgroupBarrier();
@@ -105,11 +122,23 @@ fn sum_counters(cell_count: u32, lane: u32) {
 }
 
 fn fill_buckets(cell_count: u32, lane: u32) {
-    for (var number = lane / LANES_OF_CELL; number < cell_count; number += LANES / LANES_OF_CELL) {
-        let cell = references_of(number);
-        for (var i = cell.x + lane % LANES_OF_CELL; i < cell.y; i += LANES_OF_CELL) {
-            let key = keys[i];
-            in_buckets[atomicAdd(&counters[bucket_of(key, cell)], 1u)] = key;
+    var number = lane / LANES_OF_CELL;
+    loop {
+        let cell = references_in_batch(number, cell_count);
+        var i = cell.x + lane % LANES_OF_CELL;
+        loop {
+            if i < cell.y {
+                let key = keys[i];
+                in_buckets[atomicAdd(&counters[bucket_of(key, cell)], 1u)] = key;
+            }
+            i += LANES_OF_CELL;
+            if i >= cell.y {
+                break;
+            }
+        }
+        number += LANES / LANES_OF_CELL;
+        if number >= cell_count {
+            break;
         }
     }
     workgroupBarrier();
@@ -122,10 +151,15 @@ fn place_of(key: u32, cell: vec2<u32>) -> u32 {
     let end = atomicLoad(&counters[bucket]);
     var place = begin;
     var has_twin = false;
-    for (var i = begin; i < end; i += 1u) {
+    var i = begin;
+    loop {
         let other = in_buckets[i];
         place += select(0u, 1u, other < key);
         has_twin = has_twin || are_twins(other, key);
+        i += 1u;
+        if i >= end {
+            break;
+        }
     }
     if has_twin {
         place = begin;
@@ -145,12 +179,24 @@ fn are_twins(a: u32, b: u32) -> bool {
 
 // Cells that are left stay as they are.
 fn write_back(first: u32, cell_count: u32, lane: u32) {
-    for (var number = lane / LANES_OF_CELL; number < cell_count; number += LANES / LANES_OF_CELL) {
-        let cell = references_of(number);
+    var number = lane / LANES_OF_CELL;
+    loop {
+        let cell = references_in_batch(number, cell_count);
         let end = select(cell.y, cell.x, is_left[number] == 1u);
-        for (var i = cell.x + lane % LANES_OF_CELL; i < end; i += LANES_OF_CELL) {
-            let key = in_buckets[i];
-            pairs[first + place_of(key, cell)] = particles[key & NUMBERS];
+        var i = cell.x + lane % LANES_OF_CELL;
+        loop {
+            if i < end {
+                let key = in_buckets[i];
+                pairs[first + place_of(key, cell)] = particles[key & NUMBERS];
+            }
+            i += LANES_OF_CELL;
+            if i >= end {
+                break;
+            }
+        }
+        number += LANES / LANES_OF_CELL;
+        if number >= cell_count {
+            break;
         }
     }
 }
@@ -178,7 +224,7 @@ fn order_batches(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     var first = select(cells[max(row, 1u) - 1u], 0u, row == 0u);
     var walked = 0u;
     var layer = 0u;
-    while layer < tile.layers {
+    loop {
         ends[lane] = cells[row + min(layer + lane, tile.layers - 1u)] - first;
         workgroupBarrier();
         let small_cells = cells_before(BATCH, min(LANES, tile.layers - layer));
@@ -197,6 +243,9 @@ fn order_batches(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         first += count;
         layer += cell_count;
         workgroupBarrier();
+        if layer >= tile.layers {
+            break;
+        }
     }
     if lane == 0u {
         atomicMax(&totals[BUSIEST_BUNDLE], walked);

@@ -1,4 +1,7 @@
 // What a whole picture shares (stages/shared/frame.rs holds the same layout). Lengths in device units.
+//
+// Busy loops of all shaders are left at their end, not at their head: software adapters, which mask lanes where others
+// branch, go through a body once more than its head lets them.
 
 struct Frame {
     right: vec3<f32>,
