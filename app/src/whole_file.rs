@@ -17,14 +17,18 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     write_file(path, |file| Ok(file.write_all(bytes)?))
 }
 
+/// Whether what is written to `path` goes on to somebody else: a device or a pipe.
+pub fn is_stream(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
 /// Gives `path` what `write` puts into a file, whole or not at all. A link stays one; a device or a pipe, as
 /// `/dev/stdout`, gets the bytes as they come.
 ///
 /// # Errors
 /// [`Unwritten`].
 pub fn write_file(path: &Path, write: impl FnOnce(&mut File) -> anyhow::Result<()>) -> anyhow::Result<()> {
-    let is_stream = std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
-    let written = if is_stream {
+    let written = if is_stream(path) {
         File::options().write(true).open(path).map_err(Into::into).and_then(|mut stream| write(&mut stream))
     } else {
         replace(&path.canonicalize().unwrap_or_else(|_| path.to_owned()), write)

@@ -7,7 +7,7 @@ use renderer::Stats;
 use serde_json::Value;
 
 use crate::say::say;
-use crate::whole_file::write_whole;
+use crate::whole_file::{is_stream, write_whole};
 
 /// Stats of the pictures so far.
 pub struct StatsFile {
@@ -49,7 +49,9 @@ impl StatsFile {
             entry.insert(FRAME.to_owned(), number.into());
         }
         self.entries.insert(number, entry);
-        if StatsFile::is_standard_output(&self.path) { Ok(()) } else { self.write() }
+        // Who reads a stream wants the whole of it once.
+        let at_end = StatsFile::is_standard_output(&self.path) || is_stream(&self.path);
+        if at_end { Ok(()) } else { self.write() }
     }
 
     /// Keeps what the file said of frame `number`.
