@@ -268,6 +268,8 @@ fn stats_go_to_standard_output_once_where_that_is_wanted() {
     let one = render(&["one.vtk", "--out", "one.png"]);
     let stats: serde_json::Value = serde_json::from_str(&one.out).unwrap();
     assert_eq!(stats["particles"], 20);
+    // Nor is anything waited for where pictures are left as they are.
+    assert_eq!(render(&["one.vtk", "--out", "one.png", "--resume"]).out, "");
     // One part of several, and a frame that cannot be read.
     let some = render(&["run", "--out", "out", "--shard", "1/1"]);
     assert_eq!(some.status, 1);
@@ -283,7 +285,8 @@ fn a_link_stays_a_link_and_a_device_a_device() {
     fs::create_dir(folder.path().join("kept")).unwrap();
     fs::write(folder.path().join("kept/there.png"), "old").unwrap();
     std::os::unix::fs::symlink("kept/there.png", folder.path().join("link.png")).unwrap();
-    let arguments = ["render", "one.vtk", "--size", "8x8", "--out", "link.png", "--stats", "/dev/stdout"];
+    let arguments =
+        ["render", "one.vtk", "--size", "8x8", "--out", "link.png", "--resume", "--stats", "/dev/stdout"];
     let made = sphcast(folder.path(), &arguments);
     assert_eq!(made.status, 0, "{}", made.err);
     assert!(fs::symlink_metadata(folder.path().join("link.png")).unwrap().is_symlink());

@@ -12,6 +12,8 @@ use crate::whole_file::{is_stream, write_whole};
 /// Stats of the pictures so far.
 pub struct StatsFile {
     path: PathBuf,
+    /// Whether `path` is a stream, whose reader wants the whole once.
+    at_end: bool,
     /// Whether the file holds an array; else the stats of an only picture.
     several: bool,
     /// By the number of the frame.
@@ -34,12 +36,15 @@ impl StatsFile {
 
     /// With `resumes`, what a file at `path` says of pictures that are left as they are stays there.
     pub fn new(path: PathBuf, several: bool, resumes: bool) -> StatsFile {
-        let text = if resumes { std::fs::read_to_string(&path).unwrap_or_default() } else { String::new() };
+        let at_end = StatsFile::is_standard_output(&path) || is_stream(&path);
+        // Nobody reads from a stream that is to be written: a pipe would wait for ever.
+        let is_there = resumes && !at_end;
+        let text = if is_there { std::fs::read_to_string(&path).unwrap_or_default() } else { String::new() };
         // A file that is not one of ours says nothing, and is written anew.
         let before: Vec<Value> = serde_json::from_str(&text).unwrap_or_default();
         let numbered = |entry: Value| Some((entry.get(FRAME)?.as_u64()? as usize, entry));
         let before = before.into_iter().filter_map(numbered).collect();
-        StatsFile { path, several, entries: BTreeMap::new(), before }
+        StatsFile { path, at_end, several, entries: BTreeMap::new(), before }
     }
 
     /// Takes the stats of frame `number` in.
@@ -49,9 +54,7 @@ impl StatsFile {
             entry.insert(FRAME.to_owned(), number.into());
         }
         self.entries.insert(number, entry);
-        // Who reads a stream wants the whole of it once.
-        let at_end = StatsFile::is_standard_output(&self.path) || is_stream(&self.path);
-        if at_end { Ok(()) } else { self.write() }
+        if self.at_end { Ok(()) } else { self.write() }
     }
 
     /// Keeps what the file said of frame `number`.
