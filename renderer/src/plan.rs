@@ -3,7 +3,7 @@
 use crate::camera::CELL_SLICES;
 use crate::sampling::Bound;
 use crate::scene::Scene;
-use crate::stages::adapt::{COLUMN_STRIDE, COLUMNS, CellBounds};
+use crate::stages::adapt::{COLUMN_STRIDE, COLUMNS, CellBounds, LISTS};
 use crate::stages::shared::Fields;
 
 /// A box of cells that is built and cast at once: bundles × layers.
@@ -85,7 +85,7 @@ impl Contents {
         Bytes { widest: 32, all: 32 + 3 * 4 + 1 }
     }
 
-    /// Bounds of its bricks and what stands for its columns; two entries in lists of work; 64 samples.
+    /// Bounds of its bricks and what stands for its columns; an entry in each list of work; 64 samples.
     fn of_filled_cell(self) -> Bytes {
         const SAMPLES: u64 = 64 * 16;
         let columns = COLUMNS * COLUMN_STRIDE * self.fields.count();
@@ -93,7 +93,7 @@ impl Contents {
             Bound::Difference => columns + COLUMNS * 32,
             Bound::Paper => size_of::<CellBounds>() as u64,
         };
-        Bytes { widest: columns.max(SAMPLES), all: bounds + COLUMNS * 16 + 2 * 8 + SAMPLES }
+        Bytes { widest: columns.max(SAMPLES), all: bounds + COLUMNS * 16 + LISTS * 8 + SAMPLES }
     }
 
     /// Its place, and sums for the samples of a cell.

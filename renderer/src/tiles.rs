@@ -322,7 +322,7 @@ impl Renderer {
         drop(shared);
         self.submit(encoder, times)?;
         let work: Vec<u32> = work.take(&self.gpu)?;
-        Ok(Work { wholes: work[0].into(), parts: work[1].into() })
+        Ok(Work { wholes: work[0].into(), parts: work[1].into(), sloped: work[2].into() })
     }
 
     /// Chooses what to sample in `bundles` bundles, and samples it.

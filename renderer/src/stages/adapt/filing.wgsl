@@ -1,17 +1,10 @@
 // What the choice makes of cells: masks of the bricks to be sampled, classes, and lists of work.
 
-// For each cell its place among those that are sampled + 2, 1 where it is shown, 0 where nothing is.
+// For each cell its place among those on lists of work + 2, 1 where it is shown, 0 where nothing is.
 @group(0) @binding(18) var<storage, read_write> sampled: array<u32>;
-// Cells to be sampled, where most bricks are and where few are: cell, and place among the sampled ones.
-@group(0) @binding(19) var<storage, read_write> wholes: array<vec2<u32>>;
-@group(0) @binding(20) var<storage, read_write> parts: array<vec2<u32>>;
-@group(0) @binding(21) var<storage, read_write> work: Work;
-
-struct Work {
-    wholes: atomic<u32>,
-    parts: atomic<u32>,
-    sampled: atomic<u32>,
-}
+// Cells on lists of work (shared/tasks.wgsl), each with its place among all of them.
+@group(0) @binding(19) var<storage, read_write> tasks: array<vec2<u32>>;
+@group(0) @binding(20) var<storage, read_write> work: array<atomic<u32>, 4>;
 
 // Bricks and columns that four lanes can sample, each with two units of work.
 const MOST_UNITS: u32 = 32u;
@@ -60,7 +53,7 @@ fn note_column(
     atomicOr(&shown[number], select(0u, SEEN, seen) | select(0u, PAID, some_paid));
 }
 
-// Notes a cell's masks and class, and puts it on the list of those to be sampled as a whole or in parts.
+// Notes a cell's masks and class, and puts it on a list of work where it is some.
 fn file_cell(cell: u32, number: u32) {
     let fine = vec2(atomicLoad(&sampled_masks[2u * number]), atomicLoad(&sampled_masks[2u * number + 1u]));
     let coarse = vec2(atomicLoad(&coarse_masks[2u * number]), atomicLoad(&coarse_masks[2u * number + 1u]));
@@ -78,13 +71,7 @@ fn file_cell(cell: u32, number: u32) {
         sampled[cell] = flags & SEEN;
         return;
     }
-    let place = atomicAdd(&work.sampled, 1u);
-    sampled[cell] = place + 2u;
-    if units > MOST_UNITS {
-        wholes[atomicAdd(&work.wholes, 1u)] = vec2(cell, place);
-    } else {
-        parts[atomicAdd(&work.parts, 1u)] = vec2(cell, place);
-    }
+    list_cell(cell, select(select(PARTS, WHOLES, units > MOST_UNITS), SLOPED, units == 0u));
 }
 
 fn class_of_cell(bricks: u32, units: u32, flags: u32) -> u32 {

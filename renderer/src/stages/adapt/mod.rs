@@ -13,7 +13,7 @@ mod remainder_tests;
 use std::collections::BTreeMap;
 
 use super::shared::{
-    BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL,
+    BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TASKS_WGSL, TRANSFER_WGSL,
 };
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback, Room};
@@ -39,19 +39,22 @@ pub(crate) struct Adapt {
     pub shows: Buffer,
     /// For each bundle.
     pub bundle_entries: Buffer,
-    /// Cells to be sampled, of one submission.
-    pub wholes: Buffer,
-    pub parts: Buffer,
+    /// Lists of cells that are work of their own, of one submission, and how many there are on each.
+    pub tasks: Buffer,
     pub work: Buffer,
 }
 
 /// A kernel's code, what is left out, and how many fields there are.
 type Variant = (u32, Without, Fields);
 
+/// Used by the paper's choice, too.
+const LISTING_WGSL: &str = include_str!("listing.wgsl");
 const REMAINDER_WGSL: &str = include_str!("remainder.wgsl");
 
 /// Columns of bricks of a cell.
 pub(crate) const COLUMNS: u64 = 16;
+/// Lists of work that a cell may be on one of (`tasks.wgsl`).
+pub(crate) const LISTS: u64 = 3;
 /// Bytes of the values of a column.
 pub(crate) const COLUMN_STRIDE: u64 = size_of::<entries::ColumnValues>() as u64;
 
@@ -71,8 +74,7 @@ impl Adapt {
             offers: Buffer::storage(gpu, "offers of bricks", 32),
             shows: Buffer::storage(gpu, "middles of columns", 16),
             bundle_entries: Buffer::storage(gpu, "bundles", 4 * 17),
-            wholes: Buffer::storage(gpu, "cells to be sampled", 8),
-            parts: Buffer::storage(gpu, "cells to be sampled in parts", 8),
+            tasks: Buffer::storage(gpu, "lists of cells", 8),
             work: Buffer::storage(gpu, "work", 16),
         }
     }
@@ -96,8 +98,7 @@ impl Adapt {
             Bound::Paper => self.paper.reserve(gpu, filled)?,
         }
         self.shows.reserve(gpu, filled * COLUMNS)?;
-        self.wholes.reserve(gpu, filled)?;
-        self.parts.reserve(gpu, filled)
+        self.tasks.reserve(gpu, filled * LISTS)
     }
 
     /// Has the pipeline for this kernel, this part to be left out, and so many fields.
@@ -144,8 +145,7 @@ impl Adapt {
             &self.shows,
             &self.bundle_entries,
             &self.sampled,
-            &self.wholes,
-            &self.parts,
+            &self.tasks,
             &self.work,
         ]
         .map(Buffer::binding);
@@ -159,7 +159,7 @@ impl Adapt {
         &self.paper.bounds
     }
 
-    /// Asks for the numbers of cells to be sampled as a whole and in parts.
+    /// Asks for the number of cells on each list.
     pub(crate) fn read_work(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Readback {
         self.work.read_back(gpu, encoder, 1)
     }
@@ -183,8 +183,7 @@ impl Adapt {
             (&mut self.paper.bounds, of_slabs),
             (&mut self.shows, filled * COLUMNS),
             (&mut self.bundle_entries, limits.bundles),
-            (&mut self.wholes, filled),
-            (&mut self.parts, filled),
+            (&mut self.tasks, filled * LISTS),
         ]
     }
 }
@@ -200,6 +199,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             BUNDLE_WGSL,
             TRANSFER_WGSL,
             HULL_WGSL,
+            TASKS_WGSL,
             fields.bounds_wgsl(),
             include_str!("jets.wgsl"),
             include_str!("cubic.wgsl"),
@@ -213,6 +213,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             include_str!("survey.wgsl"),
             include_str!("values.wgsl"),
             include_str!("offers.wgsl"),
+            LISTING_WGSL,
             include_str!("filing.wgsl"),
             include_str!("levels.wgsl"),
         ],
@@ -224,7 +225,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             left_out("FRONT_TO_BACK", Without::GreedFromFront),
             left_out("BACK_TO_FRONT", Without::GreedFromBack),
         ],
-        bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 10]].concat(),
+        bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 9]].concat(),
     };
     Pipeline::new(gpu, &description)
 }

@@ -59,10 +59,10 @@ fn cast_coarsely(layer: u32, first: u32, end: u32, samples: Samples, slope: vec2
 @compute @workgroup_size(LANES)
 fn sample_coarsely(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = flat(workgroup);
-    if number >= work.parts {
+    if number >= work[PARTS] {
         return;
     }
-    let task = tasks[number];
+    let task = task_at(PARTS, number);
     let cell = task.x;
     let samples = samples_of(cell_values[cell].class_index + 1u - CELLS_Z_ADAPTIVE);
     let slope = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);

@@ -2,8 +2,8 @@
 //!
 //! At full sampling a workgroup takes a bundle through its cells. Adaptively, the cells that are to be
 //! sampled are work of their own, independent of each other, so that a workgroup does one thing: it
-//! samples a cell as a whole, or some of its bricks, or more coarsely along the rays. Then the cells of a
-//! bundle are put together.
+//! samples a cell as a whole, or some of its bricks, or more coarsely along the rays, or it lets bricks
+//! follow their slopes. Then the cells of a bundle are put together.
 
 mod crowds;
 mod samplers;
@@ -40,12 +40,20 @@ pub(crate) struct Cast {
     segments: Buffer,
 }
 
-/// How much of the cells of a submission `adapt` left to be sampled.
+/// How many cells of a submission `adapt` left to be cast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
     /// Cells to be sampled as a whole, and in parts or at a coarser level.
     pub wholes: u64,
     pub parts: u64,
+    /// Those of which nothing is to be sampled, though some bricks follow slopes.
+    pub sloped: u64,
+}
+
+impl Work {
+    fn cells(self) -> u64 {
+        self.wholes + self.parts + self.sloped
+    }
 }
 
 impl Cast {
@@ -74,7 +82,7 @@ impl Cast {
 
     /// Makes room for what `work` leaves.
     pub(crate) fn reserve_segments(&mut self, gpu: &Gpu, work: Work) -> Result<(), RenderError> {
-        self.segments.reserve(gpu, (work.wholes + work.parts) * 64)
+        self.segments.reserve(gpu, work.cells() * 64)
     }
 
     /// Has the pipelines for this kernel and so many fields.
@@ -164,12 +172,12 @@ impl Cast {
         };
         let (segments, values) = (&self.segments, &adapt.cell_values);
         let [portions, sums] = self.crowds.buffers();
-        let sample = |pipeline: &Pipeline, pass: &mut wgpu::ComputePass, tasks, count| {
-            let own = [portions, sums, segments, &adapt.work, tasks, values, &adapt.bricks, &adapt.offers];
-            pipeline.dispatch(gpu, pass, &with(shared, &own), count);
-        };
-        sample(&samplers.wholes, pass, &adapt.wholes, work.wholes);
-        sample(parts, pass, &adapt.parts, work.parts);
+        let own =
+            [portions, sums, segments, &adapt.work, &adapt.tasks, values, &adapt.bricks, &adapt.offers];
+        let resources = with(shared, &own);
+        samplers.wholes.dispatch(gpu, pass, &resources, work.wholes);
+        parts.dispatch(gpu, pass, &resources, work.parts);
+        samplers.slopes.dispatch(gpu, pass, &resources, work.sloped);
         let cells = with(
             shared,
             &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],

@@ -135,10 +135,10 @@ fn rank_of(mask: vec2<u32>, column: u32, brick_layer: u32) -> u32 {
 @compute @workgroup_size(LANES)
 fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = flat(workgroup);
-    if number >= work.parts {
+    if number >= work[PARTS] {
         return;
     }
-    let task = tasks[number];
+    let task = task_at(PARTS, number);
     let cell = task.x;
     let entry = cell_values[cell];
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);

@@ -1,7 +1,7 @@
 //! The shaders of the casting, in the variants that they have.
 
 use super::super::shared::{
-    BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TRANSFER_WGSL,
+    BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, KERNEL_WGSL, TASKS_WGSL, TRANSFER_WGSL,
 };
 use crate::gpu::{Access, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
@@ -24,6 +24,7 @@ pub(super) struct Samplers {
     pub full: Pipeline,
     pub wholes: Pipeline,
     pub parts: Pipeline,
+    pub slopes: Pipeline,
 }
 
 /// Makes pipelines.
@@ -40,7 +41,7 @@ impl Shaders {
         };
         let work = |entry_point, source| {
             let bounds = fields.bounds_wgsl();
-            let sources = [HULL_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
+            let sources = [HULL_WGSL, TASKS_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
             pipeline(entry_point, &sources, &WORK_BINDINGS)
         };
         Samplers {
@@ -52,6 +53,7 @@ impl Shaders {
             full: self.full(gpu, kernel, fields, COLOUR_WGSL),
             wholes: work("sample_wholes", include_str!("whole.wgsl")),
             parts: work("sample_parts", include_str!("parts.wgsl")),
+            slopes: work("follow_slopes", include_str!("slopes.wgsl")),
         }
     }
 
@@ -71,7 +73,7 @@ impl Shaders {
     pub fn coarse(&self, gpu: &Gpu, kernel: Kernel) -> Pipeline {
         let fields = Fields::One;
         let (bounds, source) = (fields.bounds_wgsl(), include_str!("coarse.wgsl"));
-        let sources = [HULL_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
+        let sources = [HULL_WGSL, TASKS_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
         self.pipeline(gpu, kernel, fields, "sample_coarsely", &sources, &WORK_BINDINGS)
     }
 

@@ -3,10 +3,10 @@
 @compute @workgroup_size(LANES)
 fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = flat(workgroup);
-    if number >= work.wholes {
+    if number >= work[WHOLES] {
         return;
     }
-    let task = tasks[number];
+    let task = task_at(WHOLES, number);
     let cell = task.x;
     let entry = cell_values[cell];
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);

@@ -1,20 +1,18 @@
-// Cells to be sampled, as adapt/levels.wgsl filed them, and what becomes of them.
+// Cells that are work of their own, as adapt/filing.wgsl listed them, and what becomes of them.
 
-struct Work {
-    wholes: u32,
-    parts: u32,
-    sampled: u32,
-}
-
-// Colour and opacity of each ray in a sampled cell, 64 a cell.
+// Colour and opacity of each ray in a listed cell, 64 a cell.
 @group(0) @binding(14) var<storage, read_write> segments: array<vec4<f32>>;
-@group(0) @binding(15) var<storage, read> work: Work;
-// Cell, and its place among the sampled ones.
+@group(0) @binding(15) var<storage, read> work: array<u32, 4>;
+// Cells on lists of work (shared/tasks.wgsl), each with its place among all of them.
 @group(0) @binding(16) var<storage, read> tasks: array<vec2<u32>>;
 @group(0) @binding(17) var<storage, read> cell_values: array<CellEntry>;
 @group(0) @binding(18) var<storage, read> bricks: array<FieldValues>;
 // Costs of a column's bricks (adapt/offers.wgsl), negative where no light comes from.
 @group(0) @binding(19) var<storage, read> offers: array<array<vec4<f32>, 2>>;
+
+fn task_at(list: u32, number: u32) -> vec2<u32> {
+    return tasks[place_in_list(list, number, arrayLength(&tasks))];
+}
 
 // Whether a brick is in a mask of CellEntry.
 fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {

@@ -21,3 +21,4 @@ pub(crate) const TRANSFER_WGSL: &str = include_str!("transfer.wgsl");
 /// WGSL of the structs and bindings in `bundle.rs`.
 pub(crate) const BUNDLE_WGSL: &str = include_str!("bundle.wgsl");
 pub(crate) const HULL_WGSL: &str = include_str!("hull.wgsl");
+pub(crate) const TASKS_WGSL: &str = include_str!("tasks.wgsl");

@@ -10,18 +10,11 @@
 // Colour and opacity that the columns of a slot show.
 @group(0) @binding(15) var<storage, read_write> shows: array<vec4<f32>>;
 @group(0) @binding(16) var<storage, read_write> bundle_entries: array<BundleEntry>;
-// For each cell its place among those that are sampled + 2, 1 where it is shown, 0 where nothing is.
+// For each cell its place among those on lists of work + 2, 1 where it is shown, 0 where nothing is.
 @group(0) @binding(17) var<storage, read_write> sampled: array<u32>;
-// Cells to be sampled, at level 0 and at coarser ones: cell, and place among the sampled ones.
-@group(0) @binding(18) var<storage, read_write> wholes: array<vec2<u32>>;
-@group(0) @binding(19) var<storage, read_write> parts: array<vec2<u32>>;
-@group(0) @binding(20) var<storage, read_write> work: Work;
-
-struct Work {
-    wholes: atomic<u32>,
-    parts: atomic<u32>,
-    sampled: atomic<u32>,
-}
+// Cells on lists of work (shared/tasks.wgsl), each with its place among all of them.
+@group(0) @binding(18) var<storage, read_write> tasks: array<vec2<u32>>;
+@group(0) @binding(19) var<storage, read_write> work: array<atomic<u32>, 4>;
 
 // How a cell is shown, sampled at a level or by one colour; and what that may do to light.
 struct Choice {
@@ -90,13 +83,11 @@ fn file_cell(cell: u32, place: u32, kind: u32) {
         note_class(cell, CELLS_SUPER_PIXEL, 0u);
         return;
     }
-    let number = atomicAdd(&work.sampled, 1u);
-    sampled[cell] = number + 2u;
     if kind == 0u {
-        wholes[atomicAdd(&work.wholes, 1u)] = vec2(cell, number);
+        list_cell(cell, WHOLES);
         note_class(cell, CELLS_FULL, 0xffffffffu);
     } else {
-        parts[atomicAdd(&work.parts, 1u)] = vec2(cell, number);
+        list_cell(cell, PARTS);
         note_class(cell, CELLS_Z_ADAPTIVE + kind - 1u, 0u);
     }
 }

@@ -13,20 +13,22 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, TRANSFER_WGSL};
-use super::Adapt;
+use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, TASKS_WGSL, TRANSFER_WGSL};
+use super::{Adapt, LISTING_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
 
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 11] = [
     FRAME_WGSL,
     Fields::One.wgsl(),
     BUNDLE_WGSL,
     TRANSFER_WGSL,
     HULL_WGSL,
+    TASKS_WGSL,
     include_str!("slabs.wgsl"),
     include_str!("intervals.wgsl"),
     include_str!("cells.wgsl"),
+    LISTING_WGSL,
     include_str!("choice.wgsl"),
 ];
 
@@ -57,7 +59,7 @@ impl Paper {
                     sources: &SOURCES,
                     entry_point: "choose_by_intervals",
                     constants: &[],
-                    bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 9]].concat(),
+                    bindings: &[&BUNDLE_BINDINGS[..], &[Access::Write; 8]].concat(),
                 },
             ),
             bounds: Buffer::storage(gpu, "intervals of cells", size_of::<CellBounds>() as u64),
@@ -85,8 +87,7 @@ impl Paper {
             &adapt.shows,
             &adapt.bundle_entries,
             &adapt.sampled,
-            &adapt.wholes,
-            &adapt.parts,
+            &adapt.tasks,
             &adapt.work,
         ]
         .map(Buffer::binding);
