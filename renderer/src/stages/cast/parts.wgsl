@@ -3,7 +3,7 @@
 // brick.
 
 // Bricks to be sampled at every slice, then columns to be sampled at level 2: brick b of column c is
-// 16b + c, and column c is 64 + c. At most 32, two units of work a lane.
+// 16b + c, and column c is 64 + c. At most 32, two units of work a lane, one after the other.
 var<workgroup> todo: array<u32, LANES>;
 // Colour and opacity of ray r in the brick layer b of the cell: 4r + b.
 var<workgroup> strands: array<vec4<f32>, 256>;
@@ -69,29 +69,26 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
     }
 }
 
-// Samples the `count` bricks and columns of `todo` into `strands`.
-fn sample_bricks(
-    layer: u32, first: u32, end: u32, count: u32, coarse: vec2<u32>, axis: vec2<f32>, lane: u32,
-) {
-    let depths = layer_depth[tile.first_layer + layer];
-    let middle = vec3(depths.x * axis, depths.y);
-    let reference = reference_of(first);
-    let units = 4u * count;
-    var a = unit_of(lane, units);
-    var b = unit_of(lane + LANES, units);
+// Sums over the particles of a cell, from `first` to `end`, for a unit of each lane; returns the evaluations that its
+// own took. `place`: of the middle of the cell, and its depth.
+fn sum_unit(unit: ptr<function, Unit>, first: u32, end: u32, place: vec4<f32>, reference: Quantity, axis: vec2<f32>, lane: u32) -> u32 {
     var done = 0u;
     var base = first;
     loop {
         if base + lane < end {
-            load_particle(base + lane, lane, middle, depths.x, reference);
+            load_particle(base + lane, lane, place.xyz, place.w, reference);
         }
         workgroupBarrier();
-        let loaded = min(LANES, end - base);
-        for (var i = 0u; i < loaded * a.count; i += 1u) {
-            done += add_to_unit(&a, axis, balls[i], loads[i]);
-        }
-        for (var i = 0u; i < loaded * b.count; i += 1u) {
-            done += add_to_unit(&b, axis, balls[i], loads[i]);
+        let loaded = select(0u, min(LANES, end - base), (*unit).count > 0u);
+        var i = 0u;
+        loop {
+            if i < loaded {
+                done += add_to_unit(unit, axis, balls[i], loads[i]);
+            }
+            i += 1u;
+            if i >= loaded {
+                break;
+            }
         }
         workgroupBarrier();
         base += LANES;
@@ -99,9 +96,27 @@ fn sample_bricks(
             break;
         }
     }
-    finish_unit(a, axis, reference, depths.x, coarse);
-    finish_unit(b, axis, reference, depths.x, coarse);
-    add_to_tally(0u, done);
+    return done;
+}
+
+// Samples the `count` bricks and columns of `todo` into `strands`.
+fn sample_bricks(
+    layer: u32, first: u32, end: u32, count: u32, coarse: vec2<u32>, axis: vec2<f32>, lane: u32,
+) {
+    let depths = layer_depth[tile.first_layer + layer];
+    let place = vec4(depths.x * axis, depths.y, depths.x);
+    let reference = reference_of(first);
+    let units = 4u * count;
+    var number = 0u;
+    loop {
+        var unit = unit_of(number + lane, units);
+        add_to_tally(0u, sum_unit(&unit, first, end, place, reference, axis, lane));
+        finish_unit(unit, axis, reference, depths.x, coarse);
+        number += LANES;
+        if number >= units {
+            break;
+        }
+    }
 }
 
 // Puts into `strands` what stands for a brick that is not sampled at every slice; what is sampled at
@@ -115,13 +130,20 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
         return;
     }
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
-    for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
+    let values = bricks[place_of_column(cell, column)];
+    var i = 0u;
+    loop {
+        let ray = 4u * column + i;
         let scale = depth * length(vec3(axis + ray_from_axis(ray), 1.0)) * frame.path_scale;
-        let charges = quantities_on_slope(cell, ray, brick_layer);
+        let charges = charges_on_slope(values, brick_layer, i);
         let paths = frame.slab_depth[brick_layer] * scale;
         let depths = frame.sample_offset[brick_layer];
         strands[4u * ray + brick_layer] =
             composite_four(vec4(0.0), vec4(1.0), charges, Quantity(), paths, depths);
+        i += 1u;
+        if i >= 4u {
+            break;
+        }
     }
 }
 
@@ -159,8 +181,7 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     workgroupBarrier();
     let count = bricks_to_do + countOneBits(columns);
     let first = first_of_cell(cell);
-    let end = select(first, cells[cell], count > 0u);
-    sample_bricks(cell % tile.layers, first, end, count, entry.coarse, axis, lane);
+    sample_bricks(cell % tile.layers, first, cells[cell], count, entry.coarse, axis, lane);
     workgroupBarrier();
     var segment = vec4(0.0);
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {

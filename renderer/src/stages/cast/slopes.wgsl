@@ -15,10 +15,11 @@ fn follow_slopes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let scale = depth * length(vec3(axis + ray_from_axis(lane), 1.0)) * frame.path_scale;
     let column = lane / 4u;
+    let values = bricks[place_of_column(cell, column)];
     var segment = vec4(0.0);
     var i = 0u;
     loop {
-        let charges = quantities_on_slope(cell, lane, i);
+        let charges = charges_on_slope(values, i, lane % 4u);
         let paths = frame.slab_depth[i] * scale;
         let followed = composite_four(segment, vec4(1.0), charges, Quantity(), paths, frame.sample_offset[i]);
         let shown = segment + (1.0 - segment.a) * middles[COLUMNS * i + column];

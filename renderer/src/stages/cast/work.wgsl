@@ -19,15 +19,14 @@ fn is_chosen(mask: vec2<u32>, column: u32, brick_layer: u32) -> bool {
     return (mask[brick_layer / 2u] >> (column + 16u * (brick_layer % 2u)) & 1u) == 1u;
 }
 
-// The quantity at a ray's samples in a brick that follows its slope. `ray`: a lane of the bundle.
-fn quantities_on_slope(cell: u32, ray: u32, brick_layer: u32) -> Charges {
-    let place = (max(cell_values[cell].slot, FIRST_SLOT) - FIRST_SLOT) * COLUMNS + ray / 4u;
-    return charges_on_slope(bricks[place], brick_layer, ray % 4u);
+// Where the values of a cell's column stand.
+fn place_of_column(cell: u32, column: u32) -> u32 {
+    return (max(cell_values[cell].slot, FIRST_SLOT) - FIRST_SLOT) * COLUMNS + column;
 }
 
 // What stands for a brick that is not sampled.
 fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<f32> {
-    let place = (max(cell_values[cell].slot, FIRST_SLOT) - FIRST_SLOT) * COLUMNS + column;
+    let place = place_of_column(cell, column);
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
     let paths = paths_of(brick_layer, axis + column_from_axis(column)) * depth;
     let seen = seen_in(bricks[place], brick_layer);
