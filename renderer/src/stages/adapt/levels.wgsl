@@ -109,35 +109,48 @@ fn offer_group(
     return workgroupUniformLoad(&open_columns) > 0u;
 }
 
-// Makes offers from front to back until nothing more is seen; returns the layer after the last one. Groups follow upon
-// groups without a look at bounds that none of them lacks.
+// Makes offers for the next stretch of cells; returns whether anything is seen behind it. Groups follow upon groups
+// without a look at bounds that none of them lacks.
+fn offer_stretch(
+    walk: ptr<function, Walk>, place: Place, paths: array<vec2<f32>, 4>, lane: u32, front: ptr<function, Front>,
+) -> bool {
+    survey(*walk, place.index, place.axis, lane);
+    bound_stretch(*walk, place.index, place.axis, lane);
+    let end = min((*walk).next + STRETCH_CELLS, (*walk).count);
+    var by_columns = workgroupUniformLoad(&cells_by_columns);
+    var is_open = true;
+    loop {
+        by_columns = bound_group(*walk, by_columns, place.index, place.axis, lane);
+        loop {
+            is_open = offer_group(walk, place, paths, lane, front);
+            if !is_open || (*walk).next >= end || of_group(by_columns, *walk) != 0u {
+                break;
+            }
+        }
+        if !is_open || (*walk).next >= end {
+            break;
+        }
+    }
+    return is_open;
+}
+
+// Makes offers from front to back until nothing more is seen; returns the layer after the last one.
 fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front>) -> u32 {
     let slope = column.direction.xy;
     let paths = array(paths_of(0u, slope), paths_of(1u, slope), paths_of(2u, slope), paths_of(3u, slope));
     var walk = start_walk(tile.layers);
     var is_open = true;
-    if !has_group(&walk, place.index, lane) {
-        end_column(front);
-        return tile.layers;
-    }
     loop {
-        survey(walk, place.index, place.axis, lane);
-        bound_stretch(walk, place.index, place.axis, lane);
-        let end = min(walk.next + STRETCH_CELLS, walk.count);
-        var by_columns = workgroupUniformLoad(&cells_by_columns);
+        list_filled(&walk, place.index, lane);
         loop {
-            by_columns = bound_group(walk, by_columns, place.index, place.axis, lane);
-            loop {
-                is_open = offer_group(&walk, place, paths, lane, front);
-                if !is_open || walk.next >= end || of_group(by_columns, walk) != 0u {
-                    break;
-                }
+            if has_group(walk) {
+                is_open = offer_stretch(&walk, place, paths, lane, front);
             }
-            if !is_open || walk.next >= end {
+            if !is_open || !has_group(walk) {
                 break;
             }
         }
-        if !is_open || !has_group(&walk, place.index, lane) {
+        if !is_open || !has_layers(walk) {
             break;
         }
     }
@@ -145,45 +158,55 @@ fn offer_all(place: Place, column: Column, lane: u32, front: ptr<function, Front
     return select(layer_after(walk), tile.layers, is_open);
 }
 
-// Takes the offers that the plan of the column affords, and files the cells; returns what the marginal
-// ones cost in all.
+// Takes the offers for the next group of cells that the plan of the column affords, and files the cells. `taken`: what
+// the marginal ones cost in all.
+fn take_group(walk: ptr<function, Walk>, place: Place, plan: Plan, lane: u32, taken: ptr<function, f32>) {
+    let cell = next_group(walk, place.index, place.number);
+    var mine = Offers(vec4(NONE), vec4(NONE));
+    var seen = false;
+    let slot = cell_values[cell.cell].slot;
+    if cell.exists && slot >= FIRST_SLOT {
+        let kept = (slot - FIRST_SLOT) * COLUMNS + place.column;
+        mine = offers[kept];
+        seen = shows[kept].a > 0.0;
+    }
+    let classes = classes_of(mine, f32(cell.end - cell.first), cell.layer);
+    marginal[lane] =
+        marginal_cost(plan, mine.first, classes.first) + marginal_cost(plan, mine.second, classes.second);
+    clear_masks(lane);
+    workgroupBarrier();
+    var affordable = false;
+    for (var i = 0u; i < GROUP_CELLS; i += 1u) {
+        let with_it = (*taken + marginal[i * COLUMNS + place.column]) * (1.0 + ROUNDING);
+        let fits = with_it <= plan.left;
+        *taken = select(*taken, with_it, fits);
+        affordable = select(affordable, fits, i == place.number);
+    }
+    let fine = vec4(is_crowd(cell)) | declined(plan, mine.first, classes.first, affordable);
+    let coarse = !fine & declined(plan, mine.second, classes.second, affordable);
+    note_column(place.number, place.column, fine, coarse, seen, mine.first > vec4(0.0));
+    workgroupBarrier();
+    if place.column == 0u && cell.exists {
+        file_cell(cell.cell, place.number);
+    }
+    workgroupBarrier();
+}
+
+// Takes offers in all layers before `end_layer`; returns what the marginal ones cost in all.
 fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
     var taken = 0.0;
     var walk = start_walk(end_layer);
-    if !has_group(&walk, place.index, lane) {
-        return taken;
-    }
     loop {
-        let cell = next_group(&walk, place.index, place.number);
-        var mine = Offers(vec4(NONE), vec4(NONE));
-        var seen = false;
-        let slot = cell_values[cell.cell].slot;
-        if cell.exists && slot >= FIRST_SLOT {
-            let kept = (slot - FIRST_SLOT) * COLUMNS + place.column;
-            mine = offers[kept];
-            seen = shows[kept].a > 0.0;
+        list_filled(&walk, place.index, lane);
+        loop {
+            if has_group(walk) {
+                take_group(&walk, place, plan, lane, &taken);
+            }
+            if !has_group(walk) {
+                break;
+            }
         }
-        let classes = classes_of(mine, f32(cell.end - cell.first), cell.layer);
-        marginal[lane] =
-            marginal_cost(plan, mine.first, classes.first) + marginal_cost(plan, mine.second, classes.second);
-        clear_masks(lane);
-        workgroupBarrier();
-        var affordable = false;
-        for (var i = 0u; i < GROUP_CELLS; i += 1u) {
-            let with_it = (taken + marginal[i * COLUMNS + place.column]) * (1.0 + ROUNDING);
-            let fits = with_it <= plan.left;
-            taken = select(taken, with_it, fits);
-            affordable = select(affordable, fits, i == place.number);
-        }
-        let fine = vec4(is_crowd(cell)) | declined(plan, mine.first, classes.first, affordable);
-        let coarse = !fine & declined(plan, mine.second, classes.second, affordable);
-        note_column(place.number, place.column, fine, coarse, seen, mine.first > vec4(0.0));
-        workgroupBarrier();
-        if place.column == 0u && cell.exists {
-            file_cell(cell.cell, place.number);
-        }
-        workgroupBarrier();
-        if !has_group(&walk, place.index, lane) {
+        if !has_layers(walk) {
             break;
         }
     }

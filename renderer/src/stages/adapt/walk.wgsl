@@ -17,7 +17,7 @@ struct Cell {
 }
 
 struct Walk {
-    // Layers to be walked through: from here on they are not listed yet, and here they end.
+    // Layers to be walked through, 64 at a time: from here on they are not listed yet, and here they end.
     layer: u32,
     end_layer: u32,
     // The next one of `filled`, and how many are listed.
@@ -29,7 +29,7 @@ fn start_walk(end_layer: u32) -> Walk {
     return Walk(0u, end_layer, 0u, 0u);
 }
 
-// Lists the filled cells among the next 64 layers: a lane a layer.
+// Lists the filled cells among the next 64 layers, which may be none: a lane a layer. All lanes together.
 fn list_filled(walk: ptr<function, Walk>, index: u32, lane: u32) {
     if lane < 2u {
         atomicStore(&filled_bits[lane], 0u);
@@ -57,12 +57,14 @@ fn list_filled(walk: ptr<function, Walk>, index: u32, lane: u32) {
     (*walk).count = workgroupUniformLoad(&filled_count);
 }
 
-// Whether there is another group. All lanes together.
-fn has_group(walk: ptr<function, Walk>, index: u32, lane: u32) -> bool {
-    while (*walk).next >= (*walk).count && (*walk).layer < (*walk).end_layer {
-        list_filled(walk, index, lane);
-    }
-    return (*walk).next < (*walk).count;
+// Whether there is another group among the listed cells.
+fn has_group(walk: Walk) -> bool {
+    return walk.next < walk.count;
+}
+
+// Whether there are layers that are not listed yet.
+fn has_layers(walk: Walk) -> bool {
+    return walk.layer < walk.end_layer;
 }
 
 // Cell `number` of the next group.
