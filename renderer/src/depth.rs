@@ -49,7 +49,7 @@ impl Renderer {
             &mut picture,
             &mut |renderer, job, tile, _, part, picture| {
                 let times = &mut picture.stats.milliseconds;
-                renderer.cast.prepare(&renderer.gpu, scene.kernel, scene.quantity.fields());
+                renderer.cast.prepare(&renderer.gpu, renderer.cast.variant(scene));
                 renderer.sum_crowds(job, part, times)?;
                 renderer.cast_depths(job, tile, part, times, &mut depths)
             },
@@ -67,7 +67,7 @@ impl Renderer {
         times: &mut Milliseconds,
         depths: &mut [f32],
     ) -> Result<(), RenderError> {
-        self.cast.prepare_depth(&self.gpu, job.scene.kernel, job.scene.quantity.fields());
+        self.cast.prepare_depth(&self.gpu, self.cast.variant(job.scene));
         self.cast.reserve_depths(&self.gpu, tile)?;
         let bundles = tile.bundles();
         let stride = self.stride(bundles);

@@ -14,7 +14,7 @@ use crate::plan::{self, Contents, Tile, TileLimits};
 use crate::sampling::{Sampling, Without};
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
-use crate::stages::cast::Cast;
+use crate::stages::cast::{Cast, Variant};
 use crate::stages::grid::Grid;
 use crate::stages::order::Order;
 use crate::stages::project::Project;
@@ -153,8 +153,9 @@ impl Renderer {
         renderer.gpu.wait()?;
         if !renderer.gpu.edits.is_empty() {
             // Their texts may stand in shaders that are made when they are first used.
-            renderer.cast.prepare(&renderer.gpu, Kernel::default(), Fields::Two);
-            renderer.cast.prepare_depth(&renderer.gpu, Kernel::default(), Fields::Two);
+            let variant = Variant::plain(Kernel::default(), Fields::Two);
+            renderer.cast.prepare(&renderer.gpu, variant);
+            renderer.cast.prepare_depth(&renderer.gpu, variant);
             renderer.adapt.prepare(&renderer.gpu, Kernel::default(), Without::Nothing, Fields::Two);
         }
         if let Some(text) = renderer.gpu.edits.unmade() {

@@ -215,7 +215,7 @@ impl Renderer {
         progress: &mut Progress,
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
-        self.cast.prepare(&self.gpu, job.scene.kernel, job.scene.quantity.fields());
+        self.cast.prepare(&self.gpu, self.cast.variant(job.scene));
         self.cast.reserve(&self.gpu, tile)?;
         let has_budget = budget_of(job, tile).is_some() && pays != Some(false);
         if has_budget {

@@ -3,7 +3,7 @@
 use crate::error::GpuError;
 
 /// Storage buffers of a shader.
-pub(super) const STORAGE_BUFFERS: u32 = 18;
+pub(super) const STORAGE_BUFFERS: u32 = 17;
 /// Invocations of a workgroup, and bytes that they share.
 pub(super) const WORKGROUP_SIZE: u32 = 256;
 pub(super) const WORKGROUP_BYTES: u32 = 16_384;

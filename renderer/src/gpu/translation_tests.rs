@@ -13,7 +13,7 @@ use crate::kernel::Kernel;
 use crate::renderer::Renderer;
 use crate::sampling::Without;
 use crate::stages::adapt::Adapt;
-use crate::stages::cast::Cast;
+use crate::stages::cast::{Cast, Variant};
 use crate::stages::object_space;
 use crate::stages::shared::Fields;
 
@@ -100,8 +100,9 @@ fn make_all() {
     for fields in [Fields::One, Fields::Two] {
         for kernel in Kernel::ALL {
             adapt.prepare(&gpu, kernel, Without::Nothing, fields);
-            cast.prepare(&gpu, kernel, fields);
-            cast.prepare_depth(&gpu, kernel, fields);
+            let variant = Variant::plain(kernel, fields);
+            cast.prepare(&gpu, variant);
+            cast.prepare_depth(&gpu, variant);
             object_space::pipeline(&gpu, kernel, fields);
         }
     }

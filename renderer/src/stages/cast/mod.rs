@@ -20,14 +20,15 @@ use crate::kernel::Kernel;
 use crate::plan::{Tile, TileLimits};
 use crate::sampling::Bound;
 use crate::scene::Scene;
+pub(crate) use samplers::Variant;
 use samplers::{Samplers, Shaders};
 
 pub(crate) struct Cast {
     shaders: Shaders,
-    /// For each kernel; for two fields once that was asked for.
-    samplers: BTreeMap<(u32, Fields), Samplers>,
-    /// What casts depths in place of colours, for each kernel and so many fields once that was asked for.
-    depth: BTreeMap<(u32, Fields), Pipeline>,
+    /// Plain ones for each kernel and one field; others once a scene needed them.
+    samplers: BTreeMap<Variant, Samplers>,
+    /// What casts depths in place of colours, once that was asked for.
+    depth: BTreeMap<Variant, Pipeline>,
     /// One a kernel. The paper's bound, whose cells it samples, knows one field.
     coarse: Vec<Pipeline>,
     composite: Pipeline,
@@ -60,8 +61,10 @@ impl Cast {
     /// `count_inside`: count evaluations with a weight above zero too, which costs time.
     pub(crate) fn new(gpu: &Gpu, count_inside: bool) -> Cast {
         let shaders = Shaders { count_inside };
-        let one_field =
-            |kernel: Kernel| ((kernel.code(), Fields::One), shaders.samplers(gpu, kernel, Fields::One));
+        let one_field = |kernel: Kernel| {
+            let variant = Variant::plain(kernel, Fields::One);
+            (variant, shaders.samplers(gpu, variant))
+        };
         Cast {
             samplers: Kernel::ALL.map(one_field).into(),
             coarse: Kernel::ALL.map(|kernel| shaders.coarse(gpu, kernel)).into(),
@@ -85,16 +88,19 @@ impl Cast {
         self.segments.reserve(gpu, work.cells() * 64)
     }
 
-    /// Has the pipelines for this kernel and so many fields.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, fields: Fields) {
-        let shaders = &self.shaders;
-        self.samplers.entry((kernel.code(), fields)).or_insert_with(|| shaders.samplers(gpu, kernel, fields));
+    /// What `scene` needs of the shaders, with the crowds that were found in the tile.
+    pub(crate) fn variant(&self, scene: &Scene) -> Variant {
+        Variant::of(scene, self.crowds.count() > 0)
     }
 
-    /// Has the pipeline for depths with this kernel and so many fields.
-    pub(crate) fn prepare_depth(&mut self, gpu: &Gpu, kernel: Kernel, fields: Fields) {
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, variant: Variant) {
         let shaders = &self.shaders;
-        self.depth.entry((kernel.code(), fields)).or_insert_with(|| shaders.depth(gpu, kernel, fields));
+        self.samplers.entry(variant).or_insert_with(|| shaders.samplers(gpu, variant));
+    }
+
+    pub(crate) fn prepare_depth(&mut self, gpu: &Gpu, variant: Variant) {
+        let shaders = &self.shaders;
+        self.depth.entry(variant).or_insert_with(|| shaders.depth(gpu, variant));
     }
 
     /// Makes room for the depths of `tile`.
@@ -104,7 +110,7 @@ impl Cast {
 
     /// Those for `scene`, which are prepared.
     fn samplers(&self, scene: &Scene) -> &Samplers {
-        &self.samplers[&(scene.kernel.code(), scene.quantity.fields())]
+        &self.samplers[&self.variant(scene)]
     }
 
     /// Records the sums over `portions` portions of crowded cells. `shared`: resources for
@@ -148,7 +154,7 @@ impl Cast {
     ) {
         let [portions, sums] = self.crowds.buffers();
         let resources = with(shared, &[portions, sums, &self.depths]);
-        let pipeline = &self.depth[&(scene.kernel.code(), scene.quantity.fields())];
+        let pipeline = &self.depth[&self.variant(scene)];
         pipeline.dispatch(gpu, pass, &resources, bundles);
     }
 
@@ -172,8 +178,7 @@ impl Cast {
         };
         let (segments, values) = (&self.segments, &adapt.cell_values);
         let [portions, sums] = self.crowds.buffers();
-        let own =
-            [portions, sums, segments, &adapt.work, &adapt.tasks, values, &adapt.bricks, &adapt.offers];
+        let own = [portions, sums, segments, &adapt.work, &adapt.tasks, values, &adapt.bricks, &adapt.offers];
         let resources = with(shared, &own);
         samplers.wholes.dispatch(gpu, pass, &resources, work.wholes);
         parts.dispatch(gpu, pass, &resources, work.parts);

@@ -52,16 +52,14 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
     if unit.count == 0u {
         return;
     }
-    if unit.brick_layer < LEVEL_2 {
+    if !HAS_LEVEL_2 || unit.brick_layer < LEVEL_2 {
         let paths = frame.slab_depth[unit.brick_layer] * scale;
         let strand = composite_four(vec4(0.0), unit.weights, unit.charges, reference, paths, unit.depths);
         strands[4u * unit.ray + unit.brick_layer] = strand;
         return;
     }
     let shades = shades_of_four(unit.weights, unit.charges, reference);
-    let is_coarse = unit.brick_layer == LEVEL_2;
-    let levels = select(0u, BRICK_DEPTH, is_coarse);
-    for (var i = 0u; i < levels; i += 1u) {
+    for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
         if is_chosen(coarse, unit.ray / 4u, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
             strands[4u * unit.ray + i] = composite(vec4(0.0), shades[i], path, unit.depths[i]);
@@ -126,7 +124,7 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
     for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
         strands[4u * ray + brick_layer] = middle;
     }
-    if !is_between || chunk.between != SLOPES {
+    if HAS_LEVEL_2 || !is_between {
         return;
     }
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
@@ -168,7 +166,7 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let column = lane % COLUMNS;
     let brick_layer = lane / COLUMNS;
     let bricks_to_do = countOneBits(entry.sampled.x) + countOneBits(entry.sampled.y);
-    let columns = select(columns_in(entry.coarse), 0u, chunk.between == SLOPES);
+    let columns = select(0u, columns_in(entry.coarse), HAS_LEVEL_2);
     if is_chosen(entry.sampled, column, brick_layer) {
         todo[rank_of(entry.sampled, column, brick_layer)] = lane;
     } else {

@@ -5,6 +5,8 @@ use super::super::shared::{
 };
 use crate::gpu::{Access, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
+use crate::sampling::{Between, Bound, Sampling};
+use crate::scene::Scene;
 
 const COLOUR_WGSL: &str = include_str!("colour.wgsl");
 const FULL_WGSL: &str = include_str!("full.wgsl");
@@ -18,7 +20,32 @@ const WORK_BINDINGS: [Access; 8] = {
     [Read, Write, Write, Read, Read, Read, Read, Read]
 };
 
-/// What samples cells, with one kernel and for so many fields.
+/// What a scene needs of the shaders, which are made for that alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Variant {
+    /// A kernel's code.
+    kernel: u32,
+    fields: Fields,
+    has_crowds: bool,
+    /// Bricks may be sampled at level 2.
+    has_level_2: bool,
+}
+
+impl Variant {
+    /// Without crowds and level 2.
+    pub fn plain(kernel: Kernel, fields: Fields) -> Variant {
+        Variant { kernel: kernel.code(), fields, has_crowds: false, has_level_2: false }
+    }
+
+    pub fn of(scene: &Scene, has_crowds: bool) -> Variant {
+        let Sampling { bound, .. } = scene.sampling;
+        let has_level_2 = bound == Bound::Difference && scene.sampling.between() == Between::Levels;
+        let plain = Variant::plain(scene.kernel, scene.quantity.fields());
+        Variant { has_crowds, has_level_2, ..plain }
+    }
+}
+
+/// What samples cells.
 pub(super) struct Samplers {
     pub portions: Pipeline,
     pub full: Pipeline,
@@ -34,14 +61,15 @@ pub(super) struct Shaders {
 }
 
 impl Shaders {
-    pub fn samplers(&self, gpu: &Gpu, kernel: Kernel, fields: Fields) -> Samplers {
+    pub fn samplers(&self, gpu: &Gpu, variant: Variant) -> Samplers {
         use Access::{Read, Write};
         let pipeline = |entry_point, sources: &[&str], bindings: &[Access]| {
-            self.pipeline(gpu, kernel, fields, entry_point, sources, bindings)
+            self.pipeline(gpu, variant, entry_point, sources, bindings)
         };
         let work = |entry_point, source| {
-            let bounds = fields.bounds_wgsl();
-            let sources = [HULL_WGSL, TASKS_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
+            let bounds = variant.fields.bounds_wgsl();
+            let sources =
+                [HULL_WGSL, TASKS_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
             pipeline(entry_point, &sources, &WORK_BINDINGS)
         };
         Samplers {
@@ -50,7 +78,7 @@ impl Shaders {
                 &[PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, include_str!("crowds.wgsl")],
                 &[Read, Write],
             ),
-            full: self.full(gpu, kernel, fields, COLOUR_WGSL),
+            full: self.full(gpu, variant, COLOUR_WGSL),
             wholes: work("sample_wholes", include_str!("whole.wgsl")),
             parts: work("sample_parts", include_str!("parts.wgsl")),
             slopes: work("follow_slopes", include_str!("slopes.wgsl")),
@@ -58,23 +86,24 @@ impl Shaders {
     }
 
     /// What samples in full, and composites depths in place of colours.
-    pub fn depth(&self, gpu: &Gpu, kernel: Kernel, fields: Fields) -> Pipeline {
-        self.full(gpu, kernel, fields, include_str!("depth.wgsl"))
+    pub fn depth(&self, gpu: &Gpu, variant: Variant) -> Pipeline {
+        self.full(gpu, variant, include_str!("depth.wgsl"))
     }
 
     /// What samples in full, and composites what `seen` says.
-    fn full(&self, gpu: &Gpu, kernel: Kernel, fields: Fields, seen: &str) -> Pipeline {
+    fn full(&self, gpu: &Gpu, variant: Variant, seen: &str) -> Pipeline {
         use Access::{Read, Write};
         let sources = [PORTIONS_WGSL, seen, SAMPLES_WGSL, FULL_WGSL];
-        self.pipeline(gpu, kernel, fields, "cast_rays", &sources, &[Read, Write, Write])
+        self.pipeline(gpu, variant, "cast_rays", &sources, &[Read, Write, Write])
     }
 
     /// What samples cells more coarsely along the rays.
     pub fn coarse(&self, gpu: &Gpu, kernel: Kernel) -> Pipeline {
-        let fields = Fields::One;
-        let (bounds, source) = (fields.bounds_wgsl(), include_str!("coarse.wgsl"));
-        let sources = [HULL_WGSL, TASKS_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
-        self.pipeline(gpu, kernel, fields, "sample_coarsely", &sources, &WORK_BINDINGS)
+        let variant = Variant::plain(kernel, Fields::One);
+        let (bounds, source) = (variant.fields.bounds_wgsl(), include_str!("coarse.wgsl"));
+        let sources =
+            [HULL_WGSL, TASKS_WGSL, bounds, WORK_WGSL, PORTIONS_WGSL, COLOUR_WGSL, SAMPLES_WGSL, source];
+        self.pipeline(gpu, variant, "sample_coarsely", &sources, &WORK_BINDINGS)
     }
 
     /// What puts cells together, whatever they were sampled from.
@@ -82,24 +111,28 @@ impl Shaders {
         use Access::{Read, Write};
         let bindings = [Write, Read, Read, Read, Read, Read];
         let sources = [HULL_WGSL, include_str!("composite.wgsl")];
-        self.pipeline(gpu, Kernel::default(), Fields::One, "composite_cells", &sources, &bindings)
+        let variant = Variant::plain(Kernel::default(), Fields::One);
+        self.pipeline(gpu, variant, "composite_cells", &sources, &bindings)
     }
 
     fn pipeline(
         &self,
         gpu: &Gpu,
-        kernel: Kernel,
-        fields: Fields,
+        variant: Variant,
         entry_point: &'static str,
         sources: &[&str],
         bindings: &[Access],
     ) -> Pipeline {
-        let kernel = ("KERNEL", f64::from(kernel.code()));
-        let counting = ("COUNT_INSIDE", f64::from(u8::from(self.count_inside)));
-        let some_shown = ("SOME_SHOWN", f64::from(u8::from(sources.contains(&WORK_WGSL))));
-        let constants = [kernel, counting, some_shown];
-        let used = if sources.contains(&SAMPLES_WGSL) { 3 } else { 1 };
-        let shared = [FRAME_WGSL, KERNEL_WGSL, fields.wgsl(), BUNDLE_WGSL, TRANSFER_WGSL];
+        let on = |name, value| (name, f64::from(u8::from(value)));
+        let constants = [
+            ("KERNEL", f64::from(variant.kernel)),
+            on("COUNT_INSIDE", self.count_inside),
+            on("SOME_SHOWN", sources.contains(&WORK_WGSL)),
+            on("HAS_CROWDS", variant.has_crowds),
+            on("HAS_LEVEL_2", variant.has_level_2),
+        ];
+        let used = if sources.contains(&SAMPLES_WGSL) { constants.len() } else { 1 };
+        let shared = [FRAME_WGSL, KERNEL_WGSL, variant.fields.wgsl(), BUNDLE_WGSL, TRANSFER_WGSL];
         Pipeline::new(
             gpu,
             &PipelineDescription {

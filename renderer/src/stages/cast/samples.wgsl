@@ -7,6 +7,9 @@
 override COUNT_INSIDE: bool = false;
 // Whether some bricks of a cell are shown unsampled.
 override SOME_SHOWN: bool = false;
+// Whether some cells are crowded, and some bricks sampled at level 2.
+override HAS_CROWDS: bool = false;
+override HAS_LEVEL_2: bool = false;
 
 // Position relative to the cell, and 1/h².
 var<workgroup> balls: array<vec4<f32>, LANES>;
@@ -115,9 +118,8 @@ fn sum_particles(
     var w_coarse = vec4(0.0); var q_coarse = Charges();
     // Evaluations done, and those with a weight above zero.
     var count = vec2(0u);
-    // A loop, not a condition: software adapters go through conditions whether they hold or not.
-    let level_2 = select(0u, 1u, SOME_SHOWN && sampled > ALL_BRICKS && chunk.between == LEVELS_BETWEEN);
-    want_layers(select(sampled & ALL_BRICKS, ALL_BRICKS, level_2 > 0u), lane);
+    let level_2 = HAS_LEVEL_2 && sampled > ALL_BRICKS;
+    want_layers(select(sampled & ALL_BRICKS, ALL_BRICKS, level_2), lane);
     var base = first;
     loop {
         clear_met(lane);
@@ -138,9 +140,7 @@ fn sum_particles(
                 if is_sampled(sampled, 1u) { count += add_samples(at[1], arc, load, &w1, &q1); }
                 if is_sampled(sampled, 2u) { count += add_samples(at[2], arc, load, &w2, &q2); }
                 if is_sampled(sampled, 3u) { count += add_samples(at[3], arc, load, &w3, &q3); }
-                for (var once = 0u; once < level_2; once += 1u) {
-                    count += add_samples(level_2_offsets(), arc, load, &w_coarse, &q_coarse);
-                }
+                if level_2 { count += add_samples(level_2_offsets(), arc, load, &w_coarse, &q_coarse); }
             }
             left = without_next(left);
             if all(left == vec2(0u)) {
@@ -158,25 +158,35 @@ fn sum_particles(
     return Sums(w0, w1, w2, w3, q0, q1, q2, q3, w_coarse, q_coarse);
 }
 
+// Adds the sums over the portions of a cell, where it is crowded.
+fn add_portions(sums: ptr<function, Sums>, first: u32, end: u32, lane: u32) {
+    let crowd = portions_of(first, end);
+    for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
+        let more = portion_sums[portion * LANES + lane];
+        (*sums).w0 += more.w0; (*sums).w1 += more.w1; (*sums).w2 += more.w2; (*sums).w3 += more.w3;
+        (*sums).q0 += more.q0; (*sums).q1 += more.q1; (*sums).q2 += more.q2; (*sums).q3 += more.q3;
+    }
+}
+
 // What is seen of a ray's stretch through one cell, and its opacity, from its particles or, where it is crowded, from
 // the sums of its portions. The arguments are those of `sum_particles`.
 fn cast_cell(
     layer: u32, first: u32, end: u32, axis: vec2<f32>, from_axis: vec2<f32>, sampled: u32, lane: u32,
 ) -> vec4<f32> {
     let reference = reference_of(first);
-    let crowd = portions_of(first, end);
-    let walk_end = select(end, first, crowd.x < crowd.y);
+    let walk_end = select(end, first, HAS_CROWDS && end - first > CROWD);
     var sums = sum_particles(layer, first, walk_end, reference, axis, from_axis, sampled, lane);
-    for (var portion = crowd.x; portion < crowd.y; portion += 1u) {
-        let more = portion_sums[portion * LANES + lane];
-        sums.w0 += more.w0; sums.w1 += more.w1; sums.w2 += more.w2; sums.w3 += more.w3;
-        sums.q0 += more.q0; sums.q1 += more.q1; sums.q2 += more.q2; sums.q3 += more.q3;
+    if HAS_CROWDS {
+        add_portions(&sums, first, end, lane);
     }
 
     let path = frame.slab_depth;
     let depth = layer_depth[tile.first_layer + layer].x;
     let scale = depth * length(vec3(axis + from_axis, 1.0)) * frame.path_scale;
-    let coarse = Coarse(shades_of_four(sums.w_coarse, sums.q_coarse, reference), sampled >> 4u);
+    var coarse = Coarse(mat4x4<f32>(), sampled >> 4u);
+    if HAS_LEVEL_2 {
+        coarse.shades = shades_of_four(sums.w_coarse, sums.q_coarse, reference);
+    }
     var cell = vec4(0.0);
     cell = pass_brick(cell, 0u, sums.w0, sums.q0, reference, path[0] * scale, sampled, coarse, lane);
     cell = pass_brick(cell, 1u, sums.w1, sums.q1, reference, path[1] * scale, sampled, coarse, lane);
@@ -225,13 +235,13 @@ fn pass_brick(
     lane: u32,
 ) -> vec4<f32> {
     let is_between = (coarse.bricks >> brick_layer & 1u) == 1u;
-    let by_slope = SOME_SHOWN && is_between && chunk.between == SLOPES;
+    let by_slope = SOME_SHOWN && is_between && !HAS_LEVEL_2;
     if by_slope || is_sampled(sampled, brick_layer) {
         let w = select(weights, vec4(1.0), by_slope);
         let q = select_charges(charges, relative_to(on_slope[brick_layer], reference), by_slope);
         return composite_four(cell, w, q, reference, paths, frame.sample_offset[brick_layer]);
     }
-    if is_between {
+    if HAS_LEVEL_2 && is_between {
         return composite(cell, coarse.shades[brick_layer], dot(paths, vec4(1.0)), level_2_offsets()[brick_layer]);
     }
     return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];

@@ -16,7 +16,7 @@ fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
         sampled |= select(0u, 1u << i, is_chosen(entry.sampled, lane / 4u, i));
         sampled |= select(0u, 16u << i, is_chosen(entry.coarse, lane / 4u, i));
-        if chunk.between == SLOPES {
+        if !HAS_LEVEL_2 {
             on_slope[i] = charges_on_slope(values, i, lane % 4u);
         }
     }

@@ -13,7 +13,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::super::shared::{BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, TASKS_WGSL, TRANSFER_WGSL};
+use super::super::shared::{
+    BUNDLE_BINDINGS, BUNDLE_WGSL, FRAME_WGSL, Fields, HULL_WGSL, TASKS_WGSL, TRANSFER_WGSL,
+};
 use super::{Adapt, LISTING_WGSL};
 use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription};
