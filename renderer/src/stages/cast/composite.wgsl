@@ -9,6 +9,51 @@
 @group(0) @binding(16) var<storage, read> cell_values: array<CellEntry>;
 @group(0) @binding(17) var<storage, read> shows: array<vec4<f32>>;
 
+// Places of the next 64 layers' cells in `segments` + 2, or 1 where middles are shown; those of either as bits.
+var<workgroup> places: array<u32, LANES>;
+var<workgroup> seen_layers: array<atomic<u32>, 2>;
+
+// Notes what is seen in the layers from `first` to `end_layer`, at most 64: a lane a layer.
+fn note_layers(index: u32, first: u32, end_layer: u32, lane: u32) {
+    if lane < 2u {
+        atomicStore(&seen_layers[lane], 0u);
+    }
+    workgroupBarrier();
+    let layer = first + lane;
+    let cell = index * tile.layers + min(layer, tile.layers - 1u);
+    // Of cells that hold nothing, nothing was noted.
+    let is_noted = layer < end_layer && is_filled(first_of_cell(cell), cells[cell]);
+    let place = select(0u, sampled[cell], is_noted);
+    places[lane] = place;
+    atomicOr(&seen_layers[lane / 32u], select(0u, 1u << (lane % 32u), place > 0u));
+    workgroupBarrier();
+}
+
+// A ray's stretch through the cell of a layer, `place` as in `sampled`.
+fn segment_in(cell: u32, place: u32, lane: u32) -> vec4<f32> {
+    if place > 1u {
+        return segments[(place - 2u) * LANES + lane];
+    }
+    return shows[(cell_values[cell].slot - FIRST_SLOT) * COLUMNS + lane / 4u];
+}
+
+// Passes the cells of these layers, those in `seen_layers`.
+fn pass_layers(index: u32, first: u32, lane: u32, ray: ptr<function, Ray>) {
+    var left = vec2(atomicLoad(&seen_layers[0]), atomicLoad(&seen_layers[1]));
+    loop {
+        if any(left != vec2(0u)) {
+            let number = next_of(left);
+            let segment = segment_in(index * tile.layers + first + number, places[number], lane);
+            (*ray).colour += (*ray).transparency * segment.rgb;
+            (*ray).transparency *= 1.0 - segment.a;
+        }
+        left = without_next(left);
+        if all(left == vec2(0u)) || (*ray).transparency <= OPAQUE {
+            break;
+        }
+    }
+}
+
 @compute @workgroup_size(LANES)
 fn composite_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let turn = chunk.first_turn + flat(workgroup);
@@ -18,19 +63,15 @@ fn composite_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     let index = bundle_of(turn);
     var ray = Ray(vec3(0.0), 1.0);
     let end_layer = bundle_entries[index].end_layer;
-    var layer = next_filled(index, 0u);
-    while layer < end_layer && ray.transparency > OPAQUE {
-        let cell = index * tile.layers + layer;
-        let place = sampled[cell];
-        var segment = vec4(0.0);
-        if place > 1u {
-            segment = segments[(place - 2u) * LANES + lane];
-        } else if place == 1u {
-            segment = shows[(cell_values[cell].slot - FIRST_SLOT) * COLUMNS + lane / 4u];
+    var first = 0u;
+    loop {
+        note_layers(index, first, end_layer, lane);
+        pass_layers(index, first, lane, &ray);
+        first += LANES;
+        workgroupBarrier();
+        if first >= end_layer {
+            break;
         }
-        ray.colour += ray.transparency * segment.rgb;
-        ray.transparency *= 1.0 - segment.a;
-        layer = next_filled(index, layer + 1u);
     }
     pixels[index * LANES + lane] = vec4(ray.colour, ray.transparency);
 }

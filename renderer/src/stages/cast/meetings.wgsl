@@ -90,12 +90,3 @@ fn met_by(lane: u32) -> vec2<u32> {
     let block = lane / BLOCK_LANES;
     return vec2(atomicLoad(&met_by_blocks[2u * block]), atomicLoad(&met_by_blocks[2u * block + 1u]));
 }
-
-// The next particle of a list that has any, and the list without it.
-fn next_of(list: vec2<u32>) -> u32 {
-    return select(firstTrailingBit(list.x), 32u + firstTrailingBit(list.y), list.x == 0u);
-}
-
-fn without_next(list: vec2<u32>) -> vec2<u32> {
-    return select(vec2(list.x & (list.x - 1u), list.y), vec2(0u, list.y & (list.y - 1u)), list.x == 0u);
-}

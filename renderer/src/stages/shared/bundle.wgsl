@@ -97,6 +97,15 @@ fn next_filled(index: u32, from_layer: u32) -> u32 {
     return layer;
 }
 
+// The first of a list of numbers below 64, as bits, that has any; and the list without it.
+fn next_of(list: vec2<u32>) -> u32 {
+    return select(firstTrailingBit(list.x), 32u + firstTrailingBit(list.y), list.x == 0u);
+}
+
+fn without_next(list: vec2<u32>) -> vec2<u32> {
+    return select(vec2(list.x & (list.x - 1u), list.y), vec2(0u, list.y & (list.y - 1u)), list.x == 0u);
+}
+
 // A particle as a cell sees it.
 struct Particle {
     // Place relative to the middle of the cell, in units of that middle's depth, and 1/h².
