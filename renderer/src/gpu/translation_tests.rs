@@ -100,9 +100,11 @@ fn make_all() {
     for fields in [Fields::One, Fields::Two] {
         for kernel in Kernel::ALL {
             adapt.prepare(&gpu, kernel, Without::Nothing, fields);
-            let variant = Variant::plain(kernel, fields);
-            cast.prepare(&gpu, variant);
-            cast.prepare_depth(&gpu, variant);
+            let plain = Variant::plain(kernel, fields);
+            for variant in [plain, Variant { has_crowds: true, has_level_2: true, ..plain }] {
+                cast.prepare(&gpu, variant);
+                cast.prepare_depth(&gpu, variant);
+            }
             object_space::pipeline(&gpu, kernel, fields);
         }
     }

@@ -26,9 +26,9 @@ pub(crate) struct Variant {
     /// A kernel's code.
     kernel: u32,
     fields: Fields,
-    has_crowds: bool,
+    pub has_crowds: bool,
     /// Bricks may be sampled at level 2.
-    has_level_2: bool,
+    pub has_level_2: bool,
 }
 
 impl Variant {
