@@ -24,8 +24,8 @@ const WORK_BINDINGS: [Access; 8] = {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Variant {
     /// A kernel's code.
-    kernel: u32,
-    fields: Fields,
+    pub kernel: u32,
+    pub fields: Fields,
     pub has_crowds: bool,
     /// Bricks may be sampled at level 2.
     pub has_level_2: bool,
