@@ -1,12 +1,12 @@
 // Bounds of the quantity in the four bricks of a column, all at once: components of vec4 are bricks,
 // from front to back.
 //
-// In a brick with middle c, let N(x) = Σ (q_j − λ) w_j(x), where λ is Q at c. Taylor's theorem gives
+// In a brick with middle c, let N(x) = Σ (q_j − λ) w_j(x). Taylor's theorem gives
 //   N(c + δ) ≤ N(c) + ∇N(c)·δ + ½ δ·H(c)δ + C(δ) + Σ |q_j − λ| m_j, H = N'', C of third order (cubic.wgsl),
-// where all but the last term are sums in which neighbours cancel, N(c) is 0 but for rounding, and m_j bounds what the
-// expansion of w_j leaves out. Q − λ is N/Σ w_j. The last sum is at most √(Σ m_j · Σ (q_j − λ)² m_j) (Cauchy and
-// Schwarz): a parabola in λ from three sums. So one pass over the particles bounds Q from both sides, more tightly
-// than intervals of the weights (their error falls with the brick's width, this one's with its cube and more), and
+// where all but the last term are sums in which neighbours cancel, and m_j bounds what the expansion of w_j
+// leaves out. Q ≤ λ wherever N ≤ 0. The last sum is at most √(Σ m_j · Σ (q_j − λ)² m_j) (Cauchy and Schwarz): a
+// parabola in λ from three sums. So one pass over the particles bounds Q from both sides, more tightly than
+// intervals of the weights (their error falls with the brick's width, this one's with its cube and more), and
 // the lower bound of Σ w_j proves coverage.
 //
 // Where samples lie in a brick, δ = a·x̂ + b·ŷ + s·(direction of the column): derivatives are taken with
@@ -172,55 +172,58 @@ fn add_share(expansion: ptr<function, Expansion>, share: Share, q: f32) {
     (*expansion).high = select((*expansion).high, max((*expansion).high, vec4(q)), share.reached);
 }
 
-// Q in the middle of each brick, and N about it (above).
-struct Relative {
-    mean: vec4<f32>,
-    n: Taylor,
-    // The upper bound of Σ |q − mean|·m.
-    left_out: vec4<f32>,
+// The upper bound of Σ |q − λ|·m.
+fn left_out_of(e: Expansion, lambda: vec4<f32>) -> vec4<f32> {
+    return remainder(e.rest, e.rest_q, e.rest_qq, lambda);
 }
 
-fn relative_to_mean(e: Expansion) -> Relative {
-    let mean = e.charge.value / e.weight.value;
-    return Relative(mean, less(e.charge, mean, e.weight), remainder(e.rest, e.rest_q, e.rest_qq, mean));
-}
-
-// The upper bound of N over the bricks where `side` is 1, of −N where it is −1.
-fn excess(relative: Relative, column: Column, side: f32) -> vec4<f32> {
-    let n = relative.n;
-    let known = side * n.value + swing(n, column) + sag(n, column, side);
-    return max(known + twist(n.cubic, column) + relative.left_out, vec4(0.0));
+// The upper bound of Σ (q − λ)·w over the bricks where `side` is 1, of Σ (λ − q)·w where it is −1.
+fn excess(e: Expansion, column: Column, lambda: vec4<f32>, side: f32) -> vec4<f32> {
+    let relative = less(e.charge, lambda, e.weight);
+    let known = side * relative.value + swing(relative, column) + sag(relative, column, side);
+    return known + twist(relative.cubic, column) + left_out_of(e, lambda);
 }
 
 // The square of a quantity, times a sum of weights, is a number. (Weights are at most 10¹⁵.)
 const LARGEST_QUANTITY: f32 = 1e8;
 
+// An upper (side 1) or lower (side −1) bound of Q, where Σ w is at least `least_weight` > 0.
+//
+// Q is farther from λ than the mean by no more than the excess over Σ w: `far`. And where the excess is
+// negative there, a tighter bound lies between: it is convex, so its chord crosses zero no earlier.
+fn bound(e: Expansion, column: Column, least_weight: vec4<f32>, side: f32) -> vec4<f32> {
+    let mean = e.charge.value / e.weight.value;
+    let above = max(excess(e, column, mean, side), vec4(0.0));
+    let far = above / least_weight;
+    let below = min(excess(e, column, mean + side * far, side), vec4(0.0));
+    return mean + side * far * select(vec4(1.0), above / (above - below), above > below);
+}
+
 // Well within what half floats hold, as they are kept: no brick that is as steep follows its slope.
 const STEEP: f32 = 15.0;
 
 // How the quantity runs through bricks in which Σ w is at least `least_weight`, and how far it is from that:
-// of N/Σw, only ∇N·δ, a middle of what is quadratic in δ, and the Σw of the middle are taken.
-fn add_slopes(
-    values: ptr<function, ColumnValues>, e: Expansion, relative: Relative, column: Column, least_weight: vec4<f32>,
-) {
-    let n = relative.n;
-    let right = clamp(column.half_width * n.a / e.weight.value, vec4(-STEEP), vec4(STEEP));
-    let up = clamp(column.half_width * n.b / e.weight.value, vec4(-STEEP), vec4(STEEP));
-    let back = clamp(column.half_depth * n.s / e.weight.value, vec4(-STEEP), vec4(STEEP));
+// Q − mean = N/Σw, where only ∇N·δ, a middle of what is quadratic in δ, and the Σw of the middle are taken.
+fn add_slopes(values: ptr<function, ColumnValues>, e: Expansion, column: Column, least_weight: vec4<f32>) {
+    let mean = e.charge.value / e.weight.value;
+    let relative = less(e.charge, mean, e.weight);
+    let right = clamp(column.half_width * relative.a / e.weight.value, vec4(-STEEP), vec4(STEEP));
+    let up = clamp(column.half_width * relative.b / e.weight.value, vec4(-STEEP), vec4(STEEP));
+    let back = clamp(column.half_depth * relative.s / e.weight.value, vec4(-STEEP), vec4(STEEP));
     let too_steep = max(max(abs(right), abs(up)), abs(back)) >= vec4(STEEP);
     let rise = abs(right) + abs(up) + abs(back);
     // What is left is known up to the second order, too: its middle is added to the slope.
-    let bent = bend_of_quotient(n, e.weight);
+    let bent = bend_of_quotient(relative, e.weight);
     let most = sag(bent, column, 1.0);
     let least = -sag(bent, column, -1.0);
     let lift = 0.5 * (most + least) / e.weight.value;
     let weight_bent = sag_either_way(e.weight, column) + twist(e.weight.cubic, column) + e.rest;
     let weight_off = rise * weight_bent + abs(lift) * (swing(e.weight, column) + weight_bent);
-    let off = 0.5 * (most - least) + twist(n.cubic, column) + weight_off + relative.left_out;
+    let off = 0.5 * (most - least) + twist(relative.cubic, column) + weight_off + left_out_of(e, mean);
     // Half floats have 11 bits.
     let rounding = 0.001 * rise + sum_rounding(e, least_weight) + 4e-6;
     let all_off = min(off / least_weight + rounding, vec4(WIDEST)) * 1.001;
-    (*values).middle += relative.mean + lift;
+    (*values).middle += mean + lift;
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
         (*values).across[i] = pack_slope(vec2(right[i], up[i]));
         (*values).along[i] = pack_slope(vec2(back[i], select(all_off[i], WIDEST, too_steep[i])));
@@ -248,9 +251,8 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
     let covered = sound & known & (least_weight > vec4(0.0));
     let safe_weight = select(vec4(1.0), least_weight, covered);
     let rounding = sum_rounding(e, safe_weight);
-    let relative = relative_to_mean(e);
-    let upper = relative.mean + excess(relative, column, 1.0) / safe_weight + rounding;
-    let lower = relative.mean - excess(relative, column, -1.0) / safe_weight - rounding;
+    let upper = bound(e, column, safe_weight, 1.0) + rounding;
+    let lower = bound(e, column, safe_weight, -1.0) - rounding;
     // Where one of them is no number, the extremes stay.
     let better = covered & (lower <= upper) & vec4(!EXTREMES_ONLY);
     let low = select(e.low, max(e.low, min(lower, e.high)), better);
@@ -266,6 +268,6 @@ fn values_of(e: Expansion, column: Column, reference: f32) -> ColumnValues {
         vec4(0u),
         vec4(0u),
     );
-    add_slopes(&values, e, relative, column, safe_weight);
+    add_slopes(&values, e, column, safe_weight);
     return values;
 }
