@@ -48,7 +48,7 @@ fn add_to_unit(unit: ptr<function, Unit>, axis: vec2<f32>, ball: vec4<f32>, load
 // Composites a unit's samples: into the brick that they are in, or each into its own, of those that are
 // sampled so.
 fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coarse: vec2<u32>) {
-    let scale = depth * length(vec3(axis + unit.from_axis, 1.0)) * frame.path_scale;
+    let scale = path_scale_of(depth, axis + unit.from_axis);
     if unit.count == 0u {
         return;
     }
@@ -69,7 +69,9 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
 
 // Sums over the particles of a cell, from `first` to `end`, for a unit of each lane; returns the evaluations that its
 // own took. `place`: of the middle of the cell, and its depth.
-fn sum_unit(unit: ptr<function, Unit>, first: u32, end: u32, place: vec4<f32>, reference: Quantity, axis: vec2<f32>, lane: u32) -> u32 {
+fn sum_unit(
+    unit: ptr<function, Unit>, first: u32, end: u32, place: vec4<f32>, reference: Quantity, axis: vec2<f32>, lane: u32,
+) -> u32 {
     var done = 0u;
     var base = first;
     loop {
@@ -132,12 +134,8 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
     var i = 0u;
     loop {
         let ray = 4u * column + i;
-        let scale = depth * length(vec3(axis + ray_from_axis(ray), 1.0)) * frame.path_scale;
-        let charges = charges_on_slope(values, brick_layer, i);
-        let paths = frame.slab_depth[brick_layer] * scale;
-        let depths = frame.sample_offset[brick_layer];
-        strands[4u * ray + brick_layer] =
-            composite_four(vec4(0.0), vec4(1.0), charges, Quantity(), paths, depths);
+        let scale = path_scale_of(depth, axis + ray_from_axis(ray));
+        strands[4u * ray + brick_layer] = pass_slope(vec4(0.0), values, brick_layer, i, scale);
         i += 1u;
         if i >= 4u {
             break;

@@ -5,7 +5,7 @@ use super::super::shared::{
 };
 use crate::gpu::{Access, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
-use crate::sampling::{Between, Bound, Sampling};
+use crate::sampling::{Between, Bound};
 use crate::scene::Scene;
 
 const COLOUR_WGSL: &str = include_str!("colour.wgsl");
@@ -38,8 +38,8 @@ impl Variant {
     }
 
     pub fn of(scene: &Scene, has_crowds: bool) -> Variant {
-        let Sampling { bound, .. } = scene.sampling;
-        let has_level_2 = bound == Bound::Difference && scene.sampling.between() == Between::Levels;
+        let sampling = &scene.sampling;
+        let has_level_2 = sampling.bound == Bound::Difference && sampling.between() == Between::Levels;
         let plain = Variant::plain(scene.kernel, scene.quantity.fields());
         Variant { has_crowds, has_level_2, ..plain }
     }

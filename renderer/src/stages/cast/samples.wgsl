@@ -89,6 +89,11 @@ fn composite_four(
     return composite(result, shades[3], paths.w, depths.w);
 }
 
+// Reference lengths for each unit of depth in a cell (that of its middle) along a ray of this slope.
+fn path_scale_of(depth: f32, slope: vec2<f32>) -> f32 {
+    return depth * length(vec3(slope, 1.0)) * frame.path_scale;
+}
+
 // All four bricks of a ray, sampled at every slice.
 const ALL_BRICKS: u32 = 15u;
 
@@ -182,7 +187,7 @@ fn cast_cell(
 
     let path = frame.slab_depth;
     let depth = layer_depth[tile.first_layer + layer].x;
-    let scale = depth * length(vec3(axis + from_axis, 1.0)) * frame.path_scale;
+    let scale = path_scale_of(depth, axis + from_axis);
     var coarse = Coarse(mat4x4<f32>(), sampled >> 4u);
     if HAS_LEVEL_2 {
         coarse.shades = shades_of_four(sums.w_coarse, sums.q_coarse, reference);

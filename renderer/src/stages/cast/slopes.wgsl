@@ -13,15 +13,13 @@ fn follow_slopes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     middles[lane] = middle_of(cell, lane % COLUMNS, lane / COLUMNS, axis);
     workgroupBarrier();
     let depth = layer_depth[tile.first_layer + cell % tile.layers].x;
-    let scale = depth * length(vec3(axis + ray_from_axis(lane), 1.0)) * frame.path_scale;
+    let scale = path_scale_of(depth, axis + ray_from_axis(lane));
     let column = lane / 4u;
     let values = bricks[place_of_column(cell, column)];
     var segment = vec4(0.0);
     var i = 0u;
     loop {
-        let charges = charges_on_slope(values, i, lane % 4u);
-        let paths = frame.slab_depth[i] * scale;
-        let followed = composite_four(segment, vec4(1.0), charges, Quantity(), paths, frame.sample_offset[i]);
+        let followed = pass_slope(segment, values, i, lane % 4u, scale);
         let shown = segment + (1.0 - segment.a) * middles[COLUMNS * i + column];
         segment = select(shown, followed, is_chosen(sloped, column, i));
         i += 1u;

@@ -24,6 +24,14 @@ fn place_of_column(cell: u32, column: u32) -> u32 {
     return (max(cell_values[cell].slot, FIRST_SLOT) - FIRST_SLOT) * COLUMNS + column;
 }
 
+// A ray's stretch through a cell, and behind it the samples in one more brick, which follows its slope. `ray`: in its
+// column; `scale`: that of its paths.
+fn pass_slope(segment: vec4<f32>, values: FieldValues, brick_layer: u32, ray: u32, scale: f32) -> vec4<f32> {
+    let charges = charges_on_slope(values, brick_layer, ray);
+    let paths = frame.slab_depth[brick_layer] * scale;
+    return composite_four(segment, vec4(1.0), charges, Quantity(), paths, frame.sample_offset[brick_layer]);
+}
+
 // What stands for a brick that is not sampled.
 fn middle_of(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>) -> vec4<f32> {
     let place = place_of_column(cell, column);

@@ -62,6 +62,9 @@ fn bucket_of(key: u32, cell: vec2<u32>) -> u32 {
     return cell.x + min(u32(share * f32(count)), count - 1u);
 }
 
+// Lanes go through their references in two loops, of cells and of each cell's: one loop over both took the grid of a
+// mixer 8 % longer on a software adapter.
+
 // Loads the references of `cell_count` cells, from `first` on, and counts the keys of each bucket.
 fn load(first: u32, cell_count: u32, lane: u32) {
     for (var i = lane; i < BATCH; i += LANES) {

@@ -18,9 +18,7 @@ struct Chunk {
 }
 
 const NOTHING_BETWEEN: u32 = 0u;
-// Sampled more coarsely along rays.
-const LEVELS_BETWEEN: u32 = 1u;
-// Bricks that follow their slopes.
+// Bricks that follow their slopes. (At 1 they are sampled more coarsely along rays.)
 const SLOPES: u32 = 2u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
