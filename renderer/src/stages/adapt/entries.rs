@@ -18,7 +18,7 @@ pub(crate) struct CellEntry {
 }
 
 /// The least slot that has bricks, and the one of a cell of which only the whole is known.
-pub(crate) const FIRST_SLOT: u32 = 3;
+pub(crate) const FIRST_SLOT: u32 = 4;
 pub(crate) const WHOLE_KNOWN: u32 = 1;
 
 /// `BundleEntry`: where a bundle ends, and what is charged to its columns.

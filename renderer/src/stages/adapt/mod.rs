@@ -211,6 +211,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
             include_str!("walk.wgsl"),
             include_str!("extremes.wgsl"),
             include_str!("survey.wgsl"),
+            include_str!("loading.wgsl"),
             include_str!("values.wgsl"),
             include_str!("offers.wgsl"),
             LISTING_WGSL,

@@ -1,9 +1,12 @@
-// Sheaves: four neighbouring columns of a cell that share an expansion, about the axis in the middle of them.
+// Sheaves: four neighbouring columns of a cell, or all of them, that share an expansion, about the axis in the middle of
+// them.
 //
 // What is known of a polynomial in one place is known everywhere: a sheaf's sums are moved to the bricks of each of
 // its columns. Only what the expansion leaves out is bounded for the sheaf, and so is wider than for a column.
 
 const SHEAF_COLUMNS: u32 = 4u;
+// Of a cell.
+const SHEAVES: u32 = COLUMNS / SHEAF_COLUMNS;
 // The terms of a particle's weight, moved by up to NEAR radii (survey.wgsl), have magnitudes that add up to no more
 // than so many times its largest weight, whatever the kernel.
 const MOST_MOVED: f32 = 2.0;

@@ -1,14 +1,5 @@
 // The quantity's bounds in the bricks of cells, found out and kept: by columns of four cells, or by sheaves of sixteen
-// cells at a time. So each lane has a column or a sheaf.
-
-// Particles of a cell that are loaded at a time.
-const BATCH: u32 = 16u;
-
-var<workgroup> balls: array<vec4<f32>, BATCH * STRETCH_CELLS>;
-// Weight, and quantity relative to the cell's reference.
-var<workgroup> loads: array<Load, BATCH * STRETCH_CELLS>;
-var<workgroup> most_particles: atomic<u32>;
-var<workgroup> slots: array<u32, STRETCH_CELLS>;
+// cells at a time. So each lane has a column or a sheaf, of four columns or of all.
 
 // Which of so many particles that are loaded may reach the column, as bits. Found out before any of them is
 // added: lanes that run together then each add one of theirs, not all the same one.
@@ -25,60 +16,27 @@ fn met_by(column: Column, first: u32, loaded: u32) -> u32 {
     return met;
 }
 
-// The lane's part in bounding bricks: some columns of a cell.
+// The lane's part in bounding bricks: some columns of a cell that is loaded.
 struct Task {
     wanted: bool,
     cell: Cell,
-    // Place of the cell among those that are looked at, and how many lanes it has.
     number: u32,
-    lanes: u32,
     // The first column, and how many there are.
     first_column: u32,
     columns: u32,
 }
 
-// The largest number of particles of any cell that is wanted, each of which gets a slot. All lanes together.
-fn start_tasks(task: Task, lane: u32) -> u32 {
-    if lane == 0u {
-        atomicStore(&most_particles, 0u);
-    }
-    workgroupBarrier();
-    if task.wanted && task.first_column == 0u {
-        atomicMax(&most_particles, task.cell.end - task.cell.first);
-        slots[task.number] = atomicAdd(&slots_taken, 1u);
-    }
-    return workgroupUniformLoad(&most_particles);
-}
-
-// The sums of the lane's columns, taken together, over the particles of its cell, where it is wanted. All lanes
-// together.
-//
-// Quantities are taken relative to a value of the cell that does not depend on their order.
-fn expand(task: Task, around: Column, reference: Quantity, most: u32, axis: vec2<f32>, lane: u32) -> Expansions {
-    let depths = layer_depth[tile.first_layer + task.cell.layer];
-    let middle = vec3(depths.x * axis, depths.y);
-    let end = select(task.cell.first, task.cell.end, task.wanted);
+// The sums of the lane's columns, taken together, over the particles of its cell, where it is wanted. `most`: that any
+// cell has. All lanes together.
+fn expand(task: Task, loader: Loader, around: Column, reference: Quantity, most: u32, axis: vec2<f32>) -> Expansions {
     let first_ball = task.number * BATCH;
     var expansions = no_expansions();
     var evaluations = 0u;
     var base = 0u;
     loop {
-        let first = task.cell.first + base;
-        let loaded = min(BATCH, max(end, first) - first);
-        var i = lane % task.lanes;
-        loop {
-            if i < loaded {
-                let particle = particle_in_cell(first + i, middle, depths.x, reference);
-                balls[first_ball + i] = particle.ball;
-                loads[first_ball + i] = Load(particle.weight, particle.quantity);
-            }
-            i += task.lanes;
-            if i >= loaded {
-                break;
-            }
-        }
+        load_batch(loader, reference, base, axis);
         workgroupBarrier();
-        var met = met_by(around, first_ball, loaded);
+        var met = met_by(around, first_ball, select(0u, loaded_of(task.cell, base), task.wanted));
         loop {
             if met != 0u {
                 let particle = first_ball + firstTrailingBit(met);
@@ -99,29 +57,35 @@ fn expand(task: Task, around: Column, reference: Quantity, most: u32, axis: vec2
     return expansions;
 }
 
-// Bounds the bricks of the walk's next cells that are `wanted`, as bits, so many columns at a time. All lanes together.
-fn bound_bricks(walk: Walk, index: u32, axis: vec2<f32>, columns: u32, wanted: u32, lane: u32) {
-    let lanes = COLUMNS / columns;
-    let number = lane / lanes;
-    let cell = listed_cell(walk, index, number);
-    let task = Task((wanted >> number & 1u) == 1u, cell, number, lanes, lane % lanes * columns, columns);
-    let around = bundle_of_columns(axis_of_columns(task.first_column, columns), columns, axis);
-    let most = start_tasks(task, lane);
-    let reference = reference_in(cell, cell_values[cell.cell].values.x);
-    let expansions = expand(task, around, reference, most, axis, lane);
-    let slot = slots[number];
-    for (var i = 0u; i < columns; i += 1u) {
+fn reference_of_bounds(cell: Cell) -> Quantity {
+    return reference_in(cell, cell_values[cell.cell].values.x);
+}
+
+// Bounds the bricks of some cells. All lanes together.
+fn bound_bricks(task: Task, loader: Loader, axis: vec2<f32>, lane: u32) {
+    let around = bundle_of_columns(axis_of_columns(task.first_column, task.columns), task.columns, axis);
+    let most = start_loading(loader, lane);
+    let expansions = expand(task, loader, around, reference_of_bounds(loader.cell), most, axis);
+    let reference = reference_of_bounds(task.cell);
+    let place = slots[task.number] * COLUMNS;
+    let end = select(0u, task.columns, task.wanted);
+    var i = 0u;
+    loop {
         let column = column_at(task.first_column + i, axis);
         let values = field_values_of(moved_expansions(expansions, move_to(column, around)), column, reference);
-        if task.wanted {
-            bricks[slot * COLUMNS + task.first_column + i] = values;
+        if i < end {
+            bricks[place + task.first_column + i] = values;
+        }
+        i += 1u;
+        if i >= end {
+            break;
         }
     }
     // What some lanes write is read by others, and all have added to the tally.
     storageBarrier();
     workgroupBarrier();
-    if task.wanted && task.first_column == 0u {
-        cell_values[cell.cell].slot = slot + FIRST_SLOT;
+    if loader.wanted && loader.lane == 0u {
+        cell_values[loader.cell.cell].slot = slots[loader.number] + FIRST_SLOT;
     }
     if lane == 0u {
         settle_tally(0u, EVALUATIONS_OF_BOUNDS);
@@ -130,11 +94,41 @@ fn bound_bricks(walk: Walk, index: u32, axis: vec2<f32>, columns: u32, wanted: u
     workgroupBarrier();
 }
 
+// A lane's part where some cells of a stretch go by sheaves of four columns, a lane each, and behind those others as one
+// sheaf each.
+fn task_of_sheaves(walk: Walk, index: u32, by_sheaves: u32, as_sheaf: u32, lane: u32) -> Task {
+    let lanes = SHEAVES * countOneBits(by_sheaves);
+    let is_whole = lane >= lanes;
+    let left = without_first(
+        select(by_sheaves, as_sheaf, is_whole),
+        select(lane / SHEAVES, lane - lanes, is_whole),
+    );
+    let number = min(firstTrailingBit(left), STRETCH_CELLS - 1u);
+    return Task(
+        left != 0u,
+        listed_cell(walk, index, number),
+        number,
+        select(lane % SHEAVES * SHEAF_COLUMNS, 0u, is_whole),
+        select(SHEAF_COLUMNS, COLUMNS, is_whole),
+    );
+}
+
+// Cells of a stretch, as bits, without so many of the first.
+fn without_first(stretch: u32, count: u32) -> u32 {
+    var left = stretch;
+    for (var i = 0u; i < min(count, STRETCH_CELLS); i += 1u) {
+        left &= left - 1u;
+    }
+    return left;
+}
+
 // Bounds the bricks of all cells of the next stretch that go by sheaves.
 fn bound_stretch(walk: Walk, index: u32, axis: vec2<f32>, lane: u32) {
-    let wanted = workgroupUniformLoad(&cells_by_sheaves);
-    if wanted != 0u {
-        bound_bricks(walk, index, axis, SHEAF_COLUMNS, wanted, lane);
+    let by_sheaves = workgroupUniformLoad(&cells_by_sheaves);
+    let as_sheaf = workgroupUniformLoad(&cells_as_sheaf);
+    if (by_sheaves | as_sheaf) != 0u {
+        let loader = loader_of(walk, index, LANES / STRETCH_CELLS, by_sheaves | as_sheaf, lane);
+        bound_bricks(task_of_sheaves(walk, index, by_sheaves, as_sheaf, lane), loader, axis, lane);
     }
 }
 
@@ -147,7 +141,8 @@ fn of_group(cells: u32, walk: Walk) -> u32 {
 fn bound_group(walk: Walk, by_columns: u32, index: u32, axis: vec2<f32>, lane: u32) -> u32 {
     let wanted = of_group(by_columns, walk);
     if wanted != 0u {
-        bound_bricks(walk, index, axis, 1u, wanted, lane);
+        let loader = loader_of(walk, index, COLUMNS, wanted, lane);
+        bound_bricks(Task(loader.wanted, loader.cell, loader.number, lane % COLUMNS, 1u), loader, axis, lane);
     }
     return by_columns & ~(wanted << (walk.next % STRETCH_CELLS));
 }

@@ -60,11 +60,13 @@ fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
     return clamp(slope, vec4(values.low[brick]), vec4(min(high, 1.0)));
 }
 
-// Nothing is known of a cell; or only its values as a whole, and that bricks are to be bounded by columns or sheaves.
+// Nothing is known of a cell; or only its values as a whole, and that bricks are to be bounded by columns, by sheaves, or
+// all as one sheaf.
 const UNKNOWN: u32 = 0u;
 const BY_COLUMNS: u32 = 1u;
 const BY_SHEAVES: u32 = 2u;
-const FIRST_SLOT: u32 = 3u;
+const AS_SHEAF: u32 = 3u;
+const FIRST_SLOT: u32 = 4u;
 
 // What is known of a cell.
 struct CellEntry {
