@@ -6,138 +6,138 @@ use reference::guarantee::{case, hard_cases, try_out};
 use reference::scenes::Scene;
 use renderer::{Gpu, GpuOptions, Kernel, RenderError, Renderer};
 
-/// What is wrong, and the texts of the shaders that make it so: from, to.
-struct Mutant {
+/// What is changed, and the texts of the shaders that make it so: from, to.
+struct Change {
     what: &'static str,
     edits: &'static [(&'static str, &'static str)],
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Mutant; 28] = [
-    Mutant {
+const MUTANTS: [Change; 28] = [
+    Change {
         what: "the remainder of the expansion is dropped",
         edits: &[("kernel_rest(ways) + 1e-6 * jet.bend", "vec4(0.0)")],
     },
-    Mutant {
+    Change {
         what: "particles whose support ends in a brick are taken to be without or within",
         edits: &[("above * above * above, rest + below * below * below", "vec4(0.0), rest")],
     },
-    Mutant {
+    Change {
         what: "the terms of third order are dropped",
         edits: &[("return width * across + depth * depth *", "return vec4(0.0) * depth *")],
     },
-    Mutant {
+    Change {
         what: "the terms of second order are dropped",
         edits: &[("return 0.5 * squares + width *", "return vec4(0.0) * width *")],
     },
-    Mutant {
+    Change {
         what: "the gradient of the sums is dropped",
         edits: &[("column.half_width * (abs(f.a) + abs(f.b))", "vec4(0.0)")],
     },
-    Mutant {
+    Change {
         what: "particles that only touch a column are left out of it",
         edits: &[(
             "(inverseSqrt(ball.w) + sqrt(2.0) * column.half_width.w) * SLACK",
             "0.8 * inverseSqrt(ball.w)",
         )],
     },
-    Mutant {
+    Change {
         what: "a column has the expansion of its sheaf, unmoved",
         edits: &[("return leant(shifted(f, way), way.lean);", "return f;")],
     },
-    Mutant {
+    Change {
         what: "a sheaf's expansion is moved as if it ended with the first order",
         edits: &[("0.5 * (square_a * a + square_b * b) + cubic_value", "0.0")],
     },
-    Mutant {
+    Change {
         what: "of a sheaf only what a column's expansion leaves out is charged",
         edits: &[("let aside = sqrt(f32(columns)) - 0.5;", "let aside = 0.5;")],
     },
-    Mutant {
+    Change {
         what: "of all of a cell as one sheaf only what a sheaf of four leaves out is charged",
         edits: &[AS_ONE_SHEAF, ("sqrt(f32(columns)) - 0.5", "sqrt(f32(min(columns, 4u))) - 0.5")],
     },
-    Mutant {
+    Change {
         what: "a particle is taken to weigh as much anywhere in a brick as in its middle",
         edits: &[("Share(term, least, left_out", "Share(term, jet.value, left_out")],
     },
-    Mutant {
+    Change {
         what: "a brick is half as wide as it is",
         edits: &[("let half_width = aside * frame.pitch", "let half_width = 0.5 * aside * frame.pitch")],
     },
-    Mutant {
+    Change {
         what: "a brick is one sample too short",
         edits: &[("vec4(at[0].w, at[1].w, at[2].w, at[3].w)", "vec4(at[0].z, at[1].z, at[2].z, at[3].z)")],
     },
-    Mutant {
+    Change {
         what: "every sample is taken to meet a particle",
         edits: &[("let covered = values.y >= COVERED;", "let covered = true;")],
     },
-    Mutant {
+    Change {
         what: "the nodes between the ends of a range are overlooked",
         edits: &[("if between > 0u {", "if between > 1000000u {")],
     },
-    Mutant {
+    Change {
         what: "values are rounded inward",
         edits: &[
             ("reference + low - 2e-6", "reference + low + 2e-3"),
             ("reference + high + 2e-6", "reference + high - 2e-3"),
         ],
     },
-    Mutant {
+    Change {
         what: "most particles of a cell are left out of its extremes",
         edits: &[(
             "place < end; place += LANES_OF_WHOLE",
             "place < min(end, cell.first + 4u); place += LANES_OF_WHOLE",
         )],
     },
-    Mutant {
+    Change {
         what: "half of the charge",
         edits: &[("select(0.0, charge, seen)", "select(0.0, 0.5 * charge, seen)")],
     },
-    Mutant {
+    Change {
         what: "the lower bound of the transparency in place of the upper",
         edits: &[("width, seen), 1.0 - thin)", "width, seen), 1.0 - thick)")],
     },
-    Mutant {
+    Change {
         what: "no light comes through from behind",
         edits: &[("width, seen), 1.0 - thin)", "width, seen), 0.0)")],
     },
-    Mutant {
+    Change {
         what: "the largest charge in place of the sum",
         edits: &[("        spent += more;", "        spent = max(spent, more);")],
     },
-    Mutant { what: "half as much again as the budget", edits: &[("chunk.budget", "(1.5 * chunk.budget)")] },
-    Mutant {
+    Change { what: "half as much again as the budget", edits: &[("chunk.budget", "(1.5 * chunk.budget)")] },
+    Change {
         what: "a slope is taken for exact",
         edits: &[(
             "let all_off = min(off / least_weight + rounding, vec4(WIDEST))",
             "let all_off = vec4(0.0)",
         )],
     },
-    Mutant {
+    Change {
         what: "a slope falls where it rises",
         edits: &[(
             "dot(unpack_slope(values.across[brick]), side)",
             "dot(unpack_slope(values.across[brick]), -side)",
         )],
     },
-    Mutant {
+    Change {
         what: "the transfer function is taken for flat",
         edits: &[("return steepest * (1.0 + ROUNDING);", "return vec4(0.0);")],
     },
-    Mutant {
+    Change {
         what: "level 2 is free of charge, however wide the hull",
         edits: &[
             ("hull.between * (1.0 - chunk.relaxation)", "hull.between * 0.0"),
             ("hull.between < vec4(chunk.budget)", "hull.between < vec4(2.0)"),
         ],
     },
-    Mutant {
+    Change {
         what: "level 2 is sampled at the front of a brick",
         edits: &[("layer == LEVEL_2);", "false);"), ("add_samples(level_2_offsets(),", "add_samples(at[0],")],
     },
-    Mutant {
+    Change {
         what: "columns end early, free of charge",
         edits: &[
             ("return light <= OCCLUDED * chunk.budget;", "return light <= 0.25;"),
@@ -149,17 +149,17 @@ const MUTANTS: [Mutant; 28] = [
 /// However smooth a cell is, its bricks are bounded as one sheaf, where particles are large enough.
 const AS_ONE_SHEAF: (&str, &str) = ("const LOSS_OF_ALL: f32 = 1e-5;", "const LOSS_OF_ALL: f32 = 1e9;");
 
-/// What is not wrong, whichever way is the best: how bricks are bounded.
-const WAYS: [Mutant; 3] = [
-    Mutant { what: "cells as one sheaf", edits: &[AS_ONE_SHEAF] },
-    Mutant {
+/// What is not wrong, whichever is the fastest: ways in which bricks are bounded.
+const WAYS: [Change; 3] = [
+    Change { what: "cells as one sheaf", edits: &[AS_ONE_SHEAF] },
+    Change {
         what: "sheaves of four columns",
         edits: &[
             ("const LOSS_OF_FOUR: f32 = 2e-4;", "const LOSS_OF_FOUR: f32 = 1e9;"),
             ("const LOSS_OF_ALL: f32 = 1e-5;", "const LOSS_OF_ALL: f32 = -1.0;"),
         ],
     },
-    Mutant {
+    Change {
         what: "columns",
         edits: &[
             ("const LOSS_OF_FOUR: f32 = 2e-4;", "const LOSS_OF_FOUR: f32 = -1.0;"),
@@ -188,7 +188,7 @@ fn edited(edits: &[(&str, &str)]) -> GpuOptions {
 }
 
 /// The first broken promise of a mutant.
-fn first_violation(mutant: &Mutant) -> Option<String> {
+fn first_violation(mutant: &Change) -> Option<String> {
     let mut renderer = open(&edited(mutant.edits));
     cases().find_map(|scene| try_out(&mut renderer, &scene).violation())
 }

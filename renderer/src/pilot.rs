@@ -16,7 +16,7 @@ const ONE_IN: u64 = 64;
 const MOST: u64 = 1024;
 const LEAST: u64 = 8;
 
-/// The share of cells that may be left to be sampled. On a software adapter an analysis costs 0.55 to 1.4 of full
+/// The share of cells that may be left to be sampled. On a software adapter an analysis costs 0.5 to 1.4 of full
 /// sampling's ray cast: measured on lattices, a mixer, a dam break and a checker board at tolerances of 0.004 to 0.03, a
 /// picture takes 0.69 to 0.96 times as long as in full where up to 0.16 of the cells are left, and 0.87 to 1.79 times
 /// where more are. A GPU passes by what a lane does not do, so there an analysis costs less; how much less has not been
