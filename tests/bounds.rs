@@ -234,7 +234,7 @@ impl Search<'_> {
             return None;
         };
         let rise = slope.rise.map(|rise| self.reading.rise * f64::from(rise));
-        let on_slope = self.twin.places(place, ray).map(|at| {
+        let on_slope = self.twin.places(place, ray, slope.width).map(|at| {
             let u = f64::from(slope.middle) + at.iter().zip(rise).map(|(at, rise)| at * rise).sum::<f64>();
             u.clamp(f64::from(low), f64::from(high))
         });

@@ -4,7 +4,7 @@
 use reference::device::open;
 use reference::guarantee::{case, hard_cases, try_out};
 use reference::scenes::Scene;
-use renderer::{Gpu, GpuOptions, Kernel, RenderError, Renderer};
+use renderer::{BrickWidth, Gpu, GpuOptions, Kernel, RenderError, Renderer};
 
 /// What is changed, and the texts of the shaders that make it so: from, to.
 struct Change {
@@ -13,7 +13,7 @@ struct Change {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Change; 28] = [
+const MUTANTS: [Change; 29] = [
     Change {
         what: "the remainder of the expansion is dropped",
         edits: &[("kernel_rest(ways) + 1e-6 * jet.bend", "vec4(0.0)")],
@@ -29,6 +29,14 @@ const MUTANTS: [Change; 28] = [
     Change {
         what: "the terms of second order are dropped",
         edits: &[("return 0.5 * squares + width *", "return vec4(0.0) * width *")],
+    },
+    Change {
+        what: "all rays of a wide column are taken to be as far to its side as above it",
+        edits: &[
+            ("if COLUMN_SIDE == 2u {", "if true {"),
+            ("let least = column.least_width * column.least_width;", "let least = greatest;"),
+            ("if COLUMN_SIDE > 2u {", "if false {"),
+        ],
     },
     Change {
         what: "the gradient of the sums is dropped",
@@ -51,11 +59,11 @@ const MUTANTS: [Change; 28] = [
     },
     Change {
         what: "of a sheaf only what a column's expansion leaves out is charged",
-        edits: &[("let aside = sqrt(f32(columns)) - 0.5;", "let aside = 0.5;")],
+        edits: &[("sqrt(f32(columns))", "1.0")],
     },
     Change {
         what: "of all of a cell as one sheaf only what a sheaf of four leaves out is charged",
-        edits: &[AS_ONE_SHEAF, ("sqrt(f32(columns)) - 0.5", "sqrt(f32(min(columns, 4u))) - 0.5")],
+        edits: &[AS_ONE_SHEAF, ("sqrt(f32(columns))", "sqrt(f32(min(columns, 4u)))")],
     },
     Change {
         what: "a particle is taken to weigh as much anywhere in a brick as in its middle",
@@ -170,10 +178,18 @@ const WAYS: [Change; 3] = [
 
 /// What every mutant is tried on, with one kernel: pipelines are made when they are first used.
 fn cases() -> impl Iterator<Item = Scene> {
-    hard_cases().into_iter().chain((0..60).map(case)).chain((60..90).map(only_levels)).map(|mut scene| {
+    let random = (0..60).flat_map(|seed| [case(seed), with_other_bricks(case(seed))]);
+    hard_cases().into_iter().chain(random).chain((60..90).map(only_levels)).map(|mut scene| {
         scene.view.particles.kernel = Kernel::Poly6;
         scene
     })
+}
+
+fn with_other_bricks(mut scene: Scene) -> Scene {
+    let width = &mut scene.view.sampling.brick_width;
+    *width = if *width == BrickWidth::Two { BrickWidth::Four } else { BrickWidth::Two };
+    scene.name += ", but for the width of the bricks";
+    scene
 }
 
 fn only_levels(seed: u64) -> Scene {

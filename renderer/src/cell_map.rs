@@ -2,7 +2,7 @@
 
 use crate::camera::{BUNDLE_SIDE, CELL_SLICES};
 use crate::picture::lane_of;
-use crate::sampling::Bound;
+use crate::sampling::{Bound, BrickWidth};
 use crate::stats::CellClasses;
 
 /// Columns of 2 × 2 rays of a bundle.
@@ -64,7 +64,7 @@ impl CellClass {
     }
 }
 
-/// Bricks of a cell, 4 in each of 16 columns, as bits.
+/// Bricks of a cell, 4 in each of 16 columns of 2 × 2 rays, as bits; one of 4 × 4 rays is in four columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BrickMask {
     /// Brick b of column c is bit 16·(b mod 2) + c of word b/2, as on the device.
@@ -73,6 +73,13 @@ pub struct BrickMask {
 
 impl BrickMask {
     pub const ALL: BrickMask = BrickMask { words: [!0; 2] };
+
+    /// From a mask over wider columns: each stands for those in it.
+    pub(crate) fn from_device(words: [u32; 2], width: BrickWidth) -> BrickMask {
+        let parts = COLUMNS / width.columns();
+        let bit = |word: u32, place: usize| (word >> (16 * (place / 16) + place % 16 / parts) & 1) << place;
+        BrickMask { words: words.map(|word| (0..32).map(|place| bit(word, place)).sum()) }
+    }
 
     /// Whether brick `brick` from the front of column `column` is among them.
     pub fn contains(self, column: usize, brick: usize) -> bool {
@@ -173,7 +180,7 @@ pub enum KnownValues {
     Between { low: f32, high: f32, covered: bool },
 }
 
-/// 2 × 2 rays × 4 slices of a cell.
+/// 2 × 2 or 4 × 4 rays × 4 slices of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brick {
     /// The field that decides the opacity.
@@ -194,7 +201,7 @@ pub struct FieldInBrick {
     pub slope: Option<Slope>,
 }
 
-/// How u runs through a brick, as far as it is linear.
+/// How u runs through a brick, as far as it is linear. A brick of 4 × 4 rays is in four columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
     /// u in the middle of the brick, as far as a plane fits its samples.
@@ -203,6 +210,8 @@ pub struct Slope {
     pub rise: [f32; 3],
     /// How far u at any sample may be from that.
     pub off: f32,
+    /// Of the brick.
+    pub width: BrickWidth,
 }
 
 /// Bricks of a cell, by column, from front to back.
@@ -288,5 +297,17 @@ mod tests {
         let chosen = |column, brick| mask.contains(column, brick);
         assert!(chosen(5, 3) && chosen(2, 0) && !chosen(5, 2) && !chosen(2, 1));
         assert_eq!((mask.count(), BrickMask::ALL.count()), (2, 64));
+        assert_eq!(BrickMask::from_device(mask.words, BrickWidth::Two), mask);
+    }
+
+    #[test]
+    fn a_mask_of_wide_columns_is_one_of_those_in_them() {
+        // Brick 3 of wide column 1, and brick 0 of wide column 2.
+        let mask = BrickMask::from_device([1 << 2, 1 << (16 + 1)], BrickWidth::Four);
+        let bricks: Vec<(usize, usize)> = (0..COLUMNS)
+            .flat_map(|column| (0..COLUMN_BRICKS).map(move |brick| (column, brick)))
+            .filter(|(column, brick)| mask.contains(*column, *brick))
+            .collect();
+        assert_eq!(bricks, [(4, 3), (5, 3), (6, 3), (7, 3), (8, 0), (9, 0), (10, 0), (11, 0)]);
     }
 }

@@ -105,7 +105,7 @@ pub use picture::Picture;
 pub use placement::{Placement, Scale, Spread};
 pub use ray::{Glance, Met, Sight};
 pub use renderer::{Progress, Renderer};
-pub use sampling::{Bound, Sampling, Without};
+pub use sampling::{Bound, BrickWidth, Sampling, Without};
 pub use scene::{Scene, default_reference_length};
 pub use stats::{CellClasses, Evaluations, Milliseconds, Stats};
 pub use transfer::{ColourPoint, ControlPoint, TransferFunction};

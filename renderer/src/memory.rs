@@ -39,7 +39,7 @@ fn give_back(gpu: &Gpu, rooms: Vec<Room>) -> bool {
 mod tests {
     use super::*;
     use crate::gpu::GpuOptions;
-    use crate::sampling::Bound;
+    use crate::sampling::{Bound, BrickWidth};
     use crate::stages::shared::Fields;
 
     /// Bytes of all arrays of a tile that makes full use of its limits, with its pixels on their way to the
@@ -54,13 +54,15 @@ mod tests {
     fn all_arrays_of_a_tile_together_fit_the_memory() {
         let mut renderer = Renderer::new(Gpu::new(&GpuOptions::default()).unwrap()).unwrap();
         for memory in [1 << 20, 64 << 20, 1 << 30, 4 << 30] {
-            for (fields, bound) in [
-                (Fields::One, Bound::Difference),
-                (Fields::Two, Bound::Difference),
-                (Fields::One, Bound::Paper),
+            for (fields, bound, column_width) in [
+                (Fields::One, Bound::Difference, BrickWidth::Two),
+                (Fields::One, Bound::Difference, BrickWidth::Four),
+                (Fields::Two, Bound::Difference, BrickWidth::Two),
+                (Fields::Two, Bound::Difference, BrickWidth::Four),
+                (Fields::One, Bound::Paper, BrickWidth::Two),
             ] {
                 for particles in [0, 1, 1000, 1_000_000, 10_000_000, 1_000_000_000] {
-                    let contents = Contents { particles, fields, bound };
+                    let contents = Contents { particles, fields, bound, column_width };
                     let limits = TileLimits::new(1 << 40, memory, contents);
                     let bytes = bytes(&mut renderer, &limits, contents);
                     assert!(bytes <= memory / 16 * 16, "{bytes} of {memory} bytes for {contents:?}");

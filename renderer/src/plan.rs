@@ -1,9 +1,9 @@
 //! How a picture is cut into tiles that fit the device. Pure: no device is touched here.
 
 use crate::camera::CELL_SLICES;
-use crate::sampling::Bound;
+use crate::sampling::{Bound, BrickWidth};
 use crate::scene::Scene;
-use crate::stages::adapt::{COLUMN_STRIDE, COLUMNS, CellBounds, LISTS};
+use crate::stages::adapt::{COLUMN_STRIDE, CellBounds, LISTS};
 use crate::stages::shared::Fields;
 
 /// A box of cells that is built and cast at once: bundles × layers.
@@ -37,6 +37,7 @@ pub(crate) struct Contents {
     pub particles: u64,
     pub fields: Fields,
     pub bound: Bound,
+    pub column_width: BrickWidth,
 }
 
 /// The memory is shared out in these many parts, and what the particles leave of it again.
@@ -66,6 +67,7 @@ impl Contents {
             particles: scene.particles.len() as u64,
             fields: scene.quantity.fields(),
             bound: scene.sampling.bound,
+            column_width: scene.sampling.column_width(),
         }
     }
 
@@ -88,12 +90,13 @@ impl Contents {
     /// Bounds of its bricks and what stands for its columns; an entry in each list of work; 64 samples.
     fn of_filled_cell(self) -> Bytes {
         const SAMPLES: u64 = 64 * 16;
-        let columns = COLUMNS * COLUMN_STRIDE * self.fields.count();
+        let count = self.column_width.columns() as u64;
+        let columns = count * COLUMN_STRIDE * self.fields.count();
         let bounds = match self.bound {
-            Bound::Difference => columns + COLUMNS * 32,
+            Bound::Difference => columns + count * 32,
             Bound::Paper => size_of::<CellBounds>() as u64,
         };
-        Bytes { widest: columns.max(SAMPLES), all: bounds + COLUMNS * 16 + LISTS * 8 + SAMPLES }
+        Bytes { widest: columns.max(SAMPLES), all: bounds + count * 16 + LISTS * 8 + SAMPLES }
     }
 
     /// Its place, and sums for the samples of a cell.

@@ -14,7 +14,7 @@ use crate::error::RenderError;
 use crate::picture::Picture;
 use crate::plan::{self, Tile};
 use crate::renderer::{CastTile, Progress, Renderer};
-use crate::sampling::Bound;
+use crate::sampling::{Bound, BrickWidth};
 use crate::scene::Scene;
 use crate::stages::adapt::CellBounds;
 use crate::stages::adapt::entries::{
@@ -160,6 +160,7 @@ impl Renderer {
         let read = |number: usize| ReadBundle {
             counts: counts[chunk(number)].to_vec(),
             adapted: bundle_entries.get(number).map(|&entry| (entry, entries[chunk(number)].to_vec())),
+            column_width: self.column_width,
         };
         Ok((0..counts.len() / layers).map(read).collect())
     }
@@ -246,10 +247,11 @@ impl Renderer {
 
     /// Reads the bricks of cells with these slots, and what stands for their columns.
     fn read_bricks(&self, slots: &[u32], fields: Fields) -> Result<Vec<ReadBricks>, RenderError> {
+        let columns = self.column_width.columns();
         let places: Vec<Range<u64>> = slots
             .iter()
-            .map(|slot| u64::from(slot - FIRST_SLOT) * COLUMNS as u64)
-            .map(|first| first..first + COLUMNS as u64)
+            .map(|slot| u64::from(slot - FIRST_SLOT) * columns as u64)
+            .map(|first| first..first + columns as u64)
             .collect();
         if places.is_empty() {
             return Ok(Vec::new());
@@ -264,18 +266,21 @@ impl Renderer {
         let values: Vec<ColumnValues> = values.take(&self.gpu)?;
         let offers: Vec<Offers> = offers.take(&self.gpu)?;
         let shows: Vec<[f32; 4]> = shows.take(&self.gpu)?;
+        // What is known of a wider column is so of each of the columns in it.
+        let parts = COLUMNS / columns;
         let column = |place: usize| {
             let fields = &values[place * fields as usize..(place + 1) * fields as usize];
+            let in_brick = |field: &ColumnValues, brick| field.of_brick(brick, self.column_width);
             std::array::from_fn(|brick| Brick {
-                opacity: fields[fields.len() - 1].of_brick(brick),
-                colour: (fields.len() > 1).then(|| fields[0].of_brick(brick)),
+                opacity: in_brick(&fields[fields.len() - 1], brick),
+                colour: (fields.len() > 1).then(|| in_brick(&fields[0], brick)),
                 charge: offers[place].to_show(brick),
                 coarse_charge: offers[place].to_coarsen(brick),
             })
         };
         let cell = |number: usize| {
-            let bricks = std::array::from_fn(|c| column(number * COLUMNS + c));
-            let shown = std::array::from_fn(|c| shows[number * COLUMNS + c]);
+            let bricks = std::array::from_fn(|c| column(number * columns + c / parts));
+            let shown = std::array::from_fn(|c| shows[number * columns + c / parts]);
             (Box::new(bricks), Box::new(shown))
         };
         Ok((0..slots.len()).map(cell).collect())
@@ -298,6 +303,7 @@ struct ReadBundle {
     counts: Vec<u32>,
     /// What the analysis left; `None` at full sampling.
     adapted: Option<(BundleEntry, Vec<CellEntry>)>,
+    column_width: BrickWidth,
 }
 
 impl ReadBundle {
@@ -327,7 +333,8 @@ impl ReadBundle {
             }
             Some((_, entries)) => {
                 let CellEntry { class_index, sampled, coarse, .. } = entries[layer as usize];
-                let [sampled, coarse] = [sampled, coarse].map(|words| BrickMask { words });
+                let [sampled, coarse] =
+                    [sampled, coarse].map(|words| BrickMask::from_device(words, self.column_width));
                 (CellClass::of_counter(class_index), sampled, coarse)
             }
         };
@@ -336,9 +343,9 @@ impl ReadBundle {
 }
 
 impl ColumnValues {
-    fn of_brick(&self, brick: usize) -> FieldInBrick {
+    fn of_brick(&self, brick: usize, width: BrickWidth) -> FieldInBrick {
         let values = KnownValues::of([self.low[brick], self.high[brick]]);
-        FieldInBrick { values, slope: self.slope(brick) }
+        FieldInBrick { values, slope: self.slope(brick, width) }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::kernel::Kernel;
 use crate::pace::Pace;
 use crate::picture::Picture;
 use crate::plan::{self, Contents, Tile, TileLimits};
-use crate::sampling::{Sampling, Without};
+use crate::sampling::{BrickWidth, Sampling, Without};
 use crate::scene::Scene;
 use crate::stages::adapt::Adapt;
 use crate::stages::cast::{Cast, Variant};
@@ -62,6 +62,8 @@ pub struct Renderer {
     pub(crate) analysed: Option<Analysed>,
     /// Whether the last tile was sampled as an analysis chose, and not in full.
     pub(crate) adapted: bool,
+    /// Of the columns that it chose from.
+    pub(crate) column_width: BrickWidth,
     /// Whether the bounds of its cells do not all fit the device, and those of a submission take the place of
     /// those of the one before.
     pub(crate) recycles_bounds: bool,
@@ -144,6 +146,7 @@ impl Renderer {
             sorted: None,
             analysed: None,
             adapted: false,
+            column_width: BrickWidth::default(),
             recycles_bounds: false,
             cast_tiles: Vec::new(),
             last: None,
@@ -156,7 +159,7 @@ impl Renderer {
             let variant = Variant::plain(Kernel::default(), Fields::Two);
             renderer.cast.prepare(&renderer.gpu, variant);
             renderer.cast.prepare_depth(&renderer.gpu, variant);
-            renderer.adapt.prepare(&renderer.gpu, Kernel::default(), Without::Nothing, Fields::Two);
+            renderer.adapt.prepare(&renderer.gpu, Kernel::default(), Without::Nothing, Fields::Two, BrickWidth::default());
         }
         if let Some(text) = renderer.gpu.edits.unmade() {
             return Err(RenderError::Device(format!("no shader has the text to be edited: {text}")));

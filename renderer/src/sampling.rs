@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::camera::BUNDLE_SIDE;
 use crate::view::{SamplingView, ViewError};
 
 /// Which bound of the error decides what may be left out.
@@ -31,6 +32,48 @@ impl TryFrom<String> for Bound {
     }
 }
 
+/// How many rays a brick is wide and high.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(into = "u32", try_from = "u32")]
+pub enum BrickWidth {
+    /// Leaves the fewest evaluations, and takes longest to find out which.
+    Two,
+    /// Mostly the fastest.
+    #[default]
+    Four,
+}
+
+impl BrickWidth {
+    pub const ALL: [BrickWidth; 2] = [BrickWidth::Two, BrickWidth::Four];
+
+    pub fn rays(self) -> u32 {
+        match self {
+            BrickWidth::Two => 2,
+            BrickWidth::Four => 4,
+        }
+    }
+
+    /// Columns of bricks of a bundle.
+    pub(crate) fn columns(self) -> usize {
+        (BUNDLE_SIDE / self.rays()).pow(2) as usize
+    }
+}
+
+impl From<BrickWidth> for u32 {
+    fn from(width: BrickWidth) -> u32 {
+        width.rays()
+    }
+}
+
+impl TryFrom<u32> for BrickWidth {
+    type Error = ViewError;
+
+    fn try_from(rays: u32) -> Result<BrickWidth, ViewError> {
+        let known = BrickWidth::ALL.into_iter().find(|width| width.rays() == rays);
+        known.ok_or_else(|| ViewError::new("sampling.brick_width", format!("{rays} is neither 2 nor 4")))
+    }
+}
+
 /// What of a view decides how densely it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
@@ -46,6 +89,8 @@ pub struct Sampling {
     pub z_adaptive: bool,
     /// Bricks, or by the paper's bound cells, may be shown by one colour.
     pub super_pixels: bool,
+    /// Of our bound's bricks.
+    pub brick_width: BrickWidth,
     /// For measurements; no view asks for it.
     #[doc(hidden)]
     pub without: Without,
@@ -87,11 +132,16 @@ const ROUNDING: f32 = 3e-5;
 
 impl Sampling {
     pub(crate) fn new(view: &SamplingView) -> Sampling {
-        let SamplingView { tolerance, bound, relaxation, z_adaptive, super_pixels, always_adaptive, .. } =
-            *view;
-        let (tolerance, relaxation) = (tolerance.map(|e| e as f32), relaxation as f32);
-        let without = Without::Nothing;
-        Sampling { tolerance, bound, relaxation, z_adaptive, super_pixels, without, always_adaptive }
+        Sampling {
+            tolerance: view.tolerance.map(|e| e as f32),
+            bound: view.bound,
+            relaxation: view.relaxation as f32,
+            z_adaptive: view.z_adaptive,
+            super_pixels: view.super_pixels,
+            brick_width: view.brick_width,
+            without: Without::Nothing,
+            always_adaptive: view.always_adaptive,
+        }
     }
 
     /// What there may be between full sampling of a brick or cell and showing it by one colour.
@@ -104,6 +154,14 @@ impl Sampling {
             }
             Bound::Difference => Between::Slopes,
             Bound::Paper => Between::Levels,
+        }
+    }
+
+    /// Of the columns that what was found out is kept for; the paper's bound knows none, and keeps it as for the finest.
+    pub(crate) fn column_width(&self) -> BrickWidth {
+        match self.bound {
+            Bound::Difference => self.brick_width,
+            Bound::Paper => BrickWidth::Two,
         }
     }
 

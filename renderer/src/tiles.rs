@@ -8,7 +8,7 @@ use crate::kernel::Kernel;
 use crate::picture::Picture;
 use crate::plan::{Tile, TileLimits};
 use crate::renderer::{Geometry, GridSize, Progress, Renderer};
-use crate::sampling::{Bound, Without};
+use crate::sampling::{Bound, BrickWidth, Without};
 use crate::scene::Scene;
 use crate::selection;
 use crate::stages::cast::Work;
@@ -58,6 +58,7 @@ pub(crate) struct Analysed {
     quantity: u64,
     kernel: Kernel,
     bound: Bound,
+    width: BrickWidth,
     without: Without,
 }
 
@@ -65,8 +66,8 @@ impl Analysed {
     fn of(job: &Job) -> Analysed {
         let (scene, geometry) = (job.scene, job.geometry.clone());
         let (kernel, sampling) = (scene.kernel, &scene.sampling);
-        let (bound, without) = (sampling.bound, sampling.without);
-        Analysed { geometry, quantity: scene.quantity.id(), kernel, bound, without }
+        let (bound, width, without) = (sampling.bound, sampling.column_width(), sampling.without);
+        Analysed { geometry, quantity: scene.quantity.id(), kernel, bound, width, without }
     }
 }
 
@@ -222,6 +223,7 @@ impl Renderer {
             self.prepare_analysis(job, tile, size)?;
         }
         self.adapted = has_budget && (pays.is_some() || self.analysis_pays(job, tile, progress, picture)?);
+        self.column_width = job.scene.sampling.column_width();
         self.clear_counters();
         self.sum_crowds(job, progress, &mut picture.stats.milliseconds)?;
         let bundles = tile.bundles();
@@ -274,7 +276,7 @@ impl Renderer {
         self.recycles_bounds = size.cells > capacity;
         self.adapt.reserve(&self.gpu, tile, capacity, job.scene)?;
         let Scene { kernel, sampling, quantity, .. } = job.scene;
-        self.adapt.prepare(&self.gpu, *kernel, sampling.without, quantity.fields());
+        self.adapt.prepare(&self.gpu, *kernel, sampling.without, quantity.fields(), sampling.brick_width);
         let known = self.analysed.take().filter(|known| job.only_tile && *known == Analysed::of(job));
         if known.is_none() {
             self.forget_bounds();

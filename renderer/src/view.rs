@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::kernel::Kernel;
 use crate::placement::{Scale, Spread};
-use crate::sampling::Bound;
+use crate::sampling::{Bound, BrickWidth};
 pub use annotations::{AnnotationsView, Ink};
 pub use cameras::{Bookmark, Keyframe, PathView};
 pub use select::{ClipBox, ClipPlane, Filter, SelectView};
@@ -169,6 +169,8 @@ pub struct SamplingView {
     pub z_adaptive: bool,
     pub super_pixels: bool,
     pub bound: Bound,
+    /// Rays across a brick: 2 or 4.
+    pub brick_width: BrickWidth,
     /// Whether what may be left out is found out even where that probably takes longer than full sampling.
     pub always_adaptive: bool,
 }
@@ -182,6 +184,7 @@ impl Default for SamplingView {
             z_adaptive: true,
             super_pixels: true,
             bound: Bound::default(),
+            brick_width: BrickWidth::default(),
             always_adaptive: false,
         }
     }

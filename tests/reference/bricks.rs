@@ -13,6 +13,7 @@ use crate::picture::{self, Values};
 use crate::scenes::Scene;
 use crate::setup::Setup;
 use crate::slices::CELL_SLABS;
+use renderer::BrickWidth;
 
 /// Slabs of a brick.
 pub const BRICK_SLABS: u32 = 4;
@@ -87,10 +88,13 @@ impl Bricks {
         std::array::from_fn(|k| self.values(pixel, slab(k) + shift))
     }
 
-    /// Where a ray's full samples lie in a brick: to the right, up and back, from −1 to 1.
-    pub fn places(&self, place: &Place, ray: usize) -> [[f64; 3]; 4] {
+    /// Where a ray's full samples lie in a brick so wide: to the right, up and back, from −1 to 1.
+    pub fn places(&self, place: &Place, ray: usize, width: BrickWidth) -> [[f64; 3]; 4] {
         let depth = |k: f64| self.setup.slices.depth(f64::from(place.first_slab()) + k + 0.5);
-        let [right, down] = RAYS[ray].map(|side| 2.0 * f64::from(side) - 1.0);
+        let ([x, y], [right, down]) = (place.corner(), RAYS[ray]);
+        let last_ray = f64::from(width.rays() - 1);
+        let [right, down] =
+            [x + right, y + down].map(|pixel| 2.0 * f64::from(pixel % width.rays()) / last_ray - 1.0);
         std::array::from_fn(|k| {
             let (depth, first, last) = (depth(k as f64), depth(0.0), depth(3.0));
             let aside = depth / last;

@@ -1,6 +1,6 @@
 //! The guarantee of adaptive sampling: random cases for it, and whether it was kept.
 
-use renderer::{CameraView, ControlPoint, Kernel, OpacityView, Picture, Renderer, Without};
+use renderer::{BrickWidth, CameraView, ControlPoint, Kernel, OpacityView, Picture, Renderer, Without};
 
 use crate::compare::{Comparison, compare};
 use crate::device::{prepare, render};
@@ -43,7 +43,8 @@ pub fn case(seed: u64) -> Scene {
     scene.view.sampling.tolerance = Some(tolerance);
     scene.view.sampling.relaxation = 0.0;
     limit_samples(&mut scene);
-    scene.name = format!("seed {seed}, {}, tolerance {tolerance:.3e}", scene.name);
+    let rays = set_width(&mut scene, seed);
+    scene.name = format!("seed {seed}, {}, bricks of {rays}, tolerance {tolerance:.3e}", scene.name);
     scene
 }
 
@@ -76,8 +77,16 @@ pub fn calm(seed: u64, width: u32, height: u32) -> Scene {
     }
     camera_of(&mut scene).fov_y_degrees = 12.0;
     scene.view.sampling.tolerance = Some(0.01);
+    set_width(&mut scene, seed);
     scene.name = format!("calm {seed} {width}x{height}");
     scene
+}
+
+/// Of its bricks, in rays: one for even seeds, the other for odd ones.
+fn set_width(scene: &mut Scene, seed: u64) -> u32 {
+    let width = BrickWidth::ALL[(seed % 2) as usize];
+    scene.view.sampling.brick_width = width;
+    width.rays()
 }
 
 /// Gives the scene a field without noise, larger particles and a longer lens: many bricks then need no
@@ -191,7 +200,13 @@ pub fn hard_cases() -> Vec<Scene> {
     let at_a_step = [0.375, 0.370_117_2, 0.1, 1e-5].map(|u| with_step(u, &|_| f64::from(u)));
     let below_a_step = [0.375, 0.370_117_2, 0.1, 1e-5].map(|u| with_step(u, &|_| f64::from(u.next_down())));
     let around_a_step = [1e-3, 1e-5].map(|width| with_step(0.25, &|q| 0.25 + width * (q - 0.5)));
-    [at_a_step.to_vec(), below_a_step.to_vec(), around_a_step.to_vec()].concat()
+    let mut cases = [at_a_step.to_vec(), below_a_step.to_vec(), around_a_step.to_vec()].concat();
+    for mut scene in cases.clone() {
+        scene.view.sampling.brick_width = BrickWidth::Two;
+        scene.name += ", bricks of 2";
+        cases.push(scene);
+    }
+    cases
 }
 
 /// The plain scene with a changed quantity, and a transfer function that goes from clear to half

@@ -11,7 +11,7 @@ use super::pipeline::{Access, PipelineDescription};
 use super::{Gpu, GpuOptions};
 use crate::kernel::Kernel;
 use crate::renderer::Renderer;
-use crate::sampling::Without;
+use crate::sampling::{BrickWidth, Without};
 use crate::stages::adapt::Adapt;
 use crate::stages::cast::{Cast, Variant};
 use crate::stages::object_space;
@@ -99,9 +99,12 @@ fn make_all() {
     let (mut adapt, mut cast) = (Adapt::new(&gpu), Cast::new(&gpu, true));
     for fields in [Fields::One, Fields::Two] {
         for kernel in Kernel::ALL {
-            adapt.prepare(&gpu, kernel, Without::Nothing, fields);
+            for width in BrickWidth::ALL {
+                adapt.prepare(&gpu, kernel, Without::Nothing, fields, width);
+            }
             let plain = Variant::plain(kernel, fields);
-            for variant in [plain, Variant { has_crowds: true, has_level_2: true, ..plain }] {
+            let fine = Variant { brick_width: BrickWidth::Two, ..plain };
+            for variant in [plain, fine, Variant { has_crowds: true, has_level_2: true, ..plain }] {
                 cast.prepare(&gpu, variant);
                 cast.prepare_depth(&gpu, variant);
             }

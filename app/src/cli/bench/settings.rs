@@ -1,6 +1,6 @@
 //! What is compared: full sampling, and one way or another to sample less.
 
-use renderer::{Bound, View, Without};
+use renderer::{Bound, BrickWidth, View, Without};
 
 use crate::cli::view::Tolerance;
 
@@ -30,9 +30,13 @@ enum Change {
 }
 
 /// A line for each: its name, and what it changes.
-static ABLATIONS: [Ablation; 11] = [
+static ABLATIONS: [Ablation; 12] = [
     // All of them are: what they measure would be gone where full sampling is faster.
     Ablation { name: "always adaptive", change: Change::View(|_| ()) },
+    Ablation {
+        name: "finer bricks",
+        change: Change::View(|view| view.sampling.brick_width = BrickWidth::Two),
+    },
     Ablation { name: "extremes only", change: Change::Method(Without::Expansion) },
     Ablation { name: "no coverage", change: Change::Method(Without::Coverage) },
     Ablation { name: "no slopes", change: Change::Method(Without::Slopes) },

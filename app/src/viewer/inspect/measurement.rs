@@ -133,6 +133,8 @@ mod tests {
     use std::path::PathBuf;
     use std::time::Duration;
 
+    use renderer::BrickWidth;
+
     use super::*;
     use crate::frames::Sequence;
 
@@ -157,7 +159,7 @@ mod tests {
         let frame = Arc::new(sequence.sources()[0].load(&Default::default()).unwrap());
         let mut view = View::default();
         (view.image.width, view.image.height) = (96, 64);
-        view.sampling.tolerance = Some(0.02);
+        (view.sampling.tolerance, view.sampling.brick_width) = (Some(0.02), BrickWidth::Two);
         let options = GpuOptions::default();
         let mut measurement = Measurement::start(Arc::clone(&frame), &view, 0.02, options, Arc::new(|| {}));
         let outcome = loop {

@@ -1,7 +1,7 @@
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use renderer::{Bound, SamplingView};
+use renderer::{Bound, BrickWidth, SamplingView};
 
 use super::{assert_written, fluid, panel, texts};
 use crate::viewer::panels::sampling::SamplingPanel;
@@ -57,7 +57,9 @@ fn looking_at_a_tolerance_from_a_file_leaves_it_alone() {
 fn each_switch_changes_its_own_setting() {
     let mut harness = sampling(|_| {});
     let before = harness.state().view.sampling;
-    let mut expected = SamplingView { bound: Bound::Paper, ..before };
+    let mut expected = SamplingView { brick_width: BrickWidth::Two, ..before };
+    assert_eq!(click(&mut harness, "2 × 2 rays"), expected);
+    expected.bound = Bound::Paper;
     assert_eq!(click(&mut harness, "Interval"), expected);
     expected.super_pixels = false;
     assert_eq!(click(&mut harness, "One colour a brick"), expected);

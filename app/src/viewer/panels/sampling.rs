@@ -1,7 +1,7 @@
 //! How far the picture may be from full sampling, and what may be left out for that.
 
 use egui::{RichText, Slider, SliderClamping, Ui};
-use renderer::{Bound, SamplingView};
+use renderer::{Bound, BrickWidth, SamplingView};
 
 use crate::viewer::session::Session;
 use crate::viewer::theme;
@@ -44,6 +44,9 @@ impl SamplingPanel {
             if sampling.bound == Bound::Paper && session.view.quantity.opacity.is_some() {
                 let text = "The interval bound knows one field: with another one for the opacity, all is sampled in full.";
                 ui.label(RichText::new(text).small().color(theme::colours().warning));
+            }
+            if sampling.bound == Bound::Difference {
+                brick_width(ui, &mut sampling.brick_width);
             }
             super_pixels(ui, &mut sampling.super_pixels);
             levels(ui, &mut sampling.z_adaptive);
@@ -89,7 +92,7 @@ fn bound(ui: &mut Ui, bound: &mut Bound) {
         (
             Bound::Difference,
             "Difference",
-            "Of the difference from full sampling, in bricks of 2 × 2 rays, 4 slices deep",
+            "Of the difference from full sampling, in bricks of a few rays, 4 slices deep",
         ),
         (
             Bound::Paper,
@@ -99,6 +102,18 @@ fn bound(ui: &mut Ui, bound: &mut Bound) {
         ),
     ];
     widgets::row(ui, "Error bound", |ui| widgets::choice(ui, bound, &choices));
+}
+
+fn brick_width(ui: &mut Ui, width: &mut BrickWidth) {
+    let choices = [
+        (BrickWidth::Four, "4 × 4 rays", "Mostly the fastest"),
+        (
+            BrickWidth::Two,
+            "2 × 2 rays",
+            "Leaves the least to be sampled, but it takes about twice as long to find out what",
+        ),
+    ];
+    widgets::row(ui, "Bricks", |ui| widgets::choice(ui, width, &choices));
 }
 
 fn super_pixels(ui: &mut Ui, on: &mut bool) {

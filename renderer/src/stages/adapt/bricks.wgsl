@@ -42,12 +42,12 @@ fn bundle_of_columns(from_axis: vec2<f32>, columns: u32, axis: vec2<f32>) -> Col
     let depth = 0.5 * (first + last);
     let direction = vec3(axis + from_axis, 1.0);
     // In pixels.
-    let aside = sqrt(f32(columns)) - 0.5;
+    let aside = 0.5 * (f32(COLUMN_SIDE) * sqrt(f32(columns)) - 1.0);
     let half_depth = 0.5 * (last - first) * SLACK;
     let half_width = aside * frame.pitch * (1.0 + last) * SLACK;
     let across = sqrt(2.0) * half_width + half_depth * length(direction.xy);
     let reach = sqrt(across * across + half_depth * half_depth) * SLACK;
-    let least_width = aside * frame.pitch * (1.0 + first) / SLACK;
+    let least_width = 0.5 * frame.pitch * (1.0 + first) / SLACK;
     let least_depth = min(abs(second - depth), abs(third - depth)) / SLACK;
     return Column(from_axis, direction, depth, half_width, half_depth, reach, least_width, least_depth);
 }

@@ -88,7 +88,12 @@ fn twist(f: Cubic, column: Column) -> vec4<f32> {
     }
     let width = column.half_width;
     let depth = column.half_depth;
-    let sideways = abs(f.aaa + f.abb) + abs(f.bbb + f.aab);
-    let across = width * (width * sideways + depth * (abs(f.aas + f.bbs) + abs(f.abs)));
+    var sideways = abs(f.aaa + f.abb) + abs(f.bbb + f.aab);
+    var askew = abs(f.aas + f.bbs);
+    if COLUMN_SIDE > 2u {
+        sideways = abs(f.aaa) + abs(f.abb) + abs(f.bbb) + abs(f.aab);
+        askew = abs(f.aas) + abs(f.bbs);
+    }
+    let across = width * (width * sideways + depth * (askew + abs(f.abs)));
     return width * across + depth * depth * (depth * abs(f.sss) + width * (abs(f.ass) + abs(f.bss)));
 }

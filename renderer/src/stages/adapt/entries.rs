@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use half::f16;
 
 use crate::cell_map::Slope;
+use crate::sampling::BrickWidth;
 
 /// `CellEntry`: what is known of a cell, and what became of it.
 #[repr(C)]
@@ -43,11 +44,11 @@ pub(crate) struct ColumnValues {
 
 impl ColumnValues {
     /// How u runs through a brick in which every sample meets a particle.
-    pub(crate) fn slope(&self, brick: usize) -> Option<Slope> {
+    pub(crate) fn slope(&self, brick: usize, width: BrickWidth) -> Option<Slope> {
         let half = |bits: u32| f16::from_bits(bits as u16).to_f32() / SLOPE_UNIT;
         let pair = |bits: u32| [half(bits), half(bits >> 16)];
         let [[right, up], [back, off]] = [self.across[brick], self.along[brick]].map(pair);
-        let slope = Slope { middle: self.middle[brick], rise: [right, up, back], off };
+        let slope = Slope { middle: self.middle[brick], rise: [right, up, back], off, width };
         (self.high[brick] >= COVERED).then_some(slope)
     }
 }
@@ -100,7 +101,7 @@ mod tests {
             across: [packed(0.25, -0.5); 4],
             along: [packed(15.0, 2.0); 4],
         };
-        let slope = values.slope(2).expect("the brick is covered");
+        let slope = values.slope(2, BrickWidth::Two).expect("the brick is covered");
         assert_eq!((slope.middle, slope.rise, slope.off), (0.5, [0.25, -0.5, 15.0], 2.0));
         // What a device may take for 0 is far below what rounding adds.
         assert!(f32::from(f16::MIN_POSITIVE) / SLOPE_UNIT < 4e-6 / 100.0);

@@ -7,13 +7,13 @@
 @group(0) @binding(20) var<storage, read_write> work: array<atomic<u32>, 4>;
 
 // Bricks and columns that four lanes can sample, each with two units of work.
-const MOST_UNITS: u32 = 32u;
+override MOST_UNITS: u32 = 2u * LANES / COLUMN_RAYS;
 
 // Bricks of the group's cells to be sampled at every slice, and those between: two words each (CellEntry).
-var<workgroup> sampled_masks: array<atomic<u32>, 8>;
-var<workgroup> coarse_masks: array<atomic<u32>, 8>;
+var<workgroup> sampled_masks: array<atomic<u32>, 2u * MOST_GROUP_CELLS>;
+var<workgroup> coarse_masks: array<atomic<u32>, 2u * MOST_GROUP_CELLS>;
 // Of each cell: SEEN, PAID.
-var<workgroup> shown: array<atomic<u32>, GROUP_CELLS>;
+var<workgroup> shown: array<atomic<u32>, MOST_GROUP_CELLS>;
 
 // Some column is seen; some brick is not sampled in full, at a cost: bricks with nothing in them are not
 // sampled either.
@@ -21,7 +21,7 @@ const SEEN: u32 = 1u;
 const PAID: u32 = 2u;
 
 fn clear_masks(lane: u32) {
-    if lane < 8u {
+    if lane < 2u * GROUP_CELLS {
         atomicStore(&sampled_masks[lane], 0u);
         atomicStore(&coarse_masks[lane], 0u);
     }

@@ -213,6 +213,14 @@ fn take_offers(place: Place, end_layer: u32, plan: Plan, lane: u32) -> f32 {
     return taken;
 }
 
+// What is charged to the rays of a column is kept for each 2 × 2 of them.
+fn note_charge(index: u32, column: u32, charged: f32) {
+    let parts = MOST_COLUMNS / COLUMNS;
+    for (var i = 0u; i < parts; i += 1u) {
+        bundle_entries[index].charged[column * parts + i] = charged;
+    }
+}
+
 @compute @workgroup_size(LANES)
 fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let turn = chunk.first_turn + flat(workgroup);
@@ -233,7 +241,7 @@ fn choose_levels(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     if place.number == 0u {
         let charged = plan.spent + taken + front.reserve;
         atomicMax(&counters[LARGEST_CHARGE], bitcast<u32>(charged));
-        bundle_entries[index].charged[place.column] = charged;
+        note_charge(index, place.column, charged);
     }
     if lane == 0u {
         bundle_entries[index].end_layer = end_layer;

@@ -1,5 +1,5 @@
 //! Adaptive sampling: bounds of the quantity in each brick of 2 × 2 rays × 4 slices, and the choice
-//! of the bricks that need no samples.
+//! of the bricks that need no samples. Bricks are 2 × 2 or 4 × 4 rays × 4 slices.
 //!
 //! The bounds of a cell are found out when a picture first needs them and stay until the grid, the
 //! quantity or the kernel changes; the choice is made anew for each picture. [`paper`] is another way.
@@ -19,7 +19,7 @@ use crate::error::RenderError;
 use crate::gpu::{Access, Buffer, Gpu, Pipeline, PipelineDescription, Readback, Room};
 use crate::kernel::Kernel;
 use crate::plan::{Contents, Tile, TileLimits};
-use crate::sampling::{Bound, Without};
+use crate::sampling::{Bound, BrickWidth, Without};
 use crate::scene::Scene;
 pub(crate) use paper::CellBounds;
 use paper::Paper;
@@ -44,15 +44,13 @@ pub(crate) struct Adapt {
     pub work: Buffer,
 }
 
-/// A kernel's code, what is left out, and how many fields there are.
-type Variant = (u32, Without, Fields);
+/// A kernel's code, what is left out, how many fields there are, and how wide bricks are.
+type Variant = (u32, Without, Fields, BrickWidth);
 
 /// Used by the paper's choice, too.
 const LISTING_WGSL: &str = include_str!("listing.wgsl");
 const REMAINDER_WGSL: &str = include_str!("remainder.wgsl");
 
-/// Columns of bricks of a cell.
-pub(crate) const COLUMNS: u64 = 16;
 /// Lists of work that a cell may be on one of (`tasks.wgsl`).
 pub(crate) const LISTS: u64 = 3;
 /// Bytes of the values of a column.
@@ -61,7 +59,7 @@ pub(crate) const COLUMN_STRIDE: u64 = size_of::<entries::ColumnValues>() as u64;
 impl Adapt {
     pub(crate) fn new(gpu: &Gpu) -> Adapt {
         let complete = |kernel: Kernel| {
-            let variant = (kernel.code(), Without::Nothing, Fields::One);
+            let variant = (kernel.code(), Without::Nothing, Fields::One, BrickWidth::default());
             (variant, pipeline(gpu, variant))
         };
         Adapt {
@@ -90,20 +88,28 @@ impl Adapt {
         self.cell_values.reserve(gpu, tile.cells())?;
         self.sampled.reserve(gpu, tile.cells())?;
         self.bundle_entries.reserve(gpu, tile.bundles())?;
+        let columns = scene.sampling.column_width().columns() as u64;
         match scene.sampling.bound {
             Bound::Difference => {
-                self.bricks.reserve(gpu, filled * COLUMNS * scene.quantity.fields().count())?;
-                self.offers.reserve(gpu, filled * COLUMNS)?;
+                self.bricks.reserve(gpu, filled * columns * scene.quantity.fields().count())?;
+                self.offers.reserve(gpu, filled * columns)?;
             }
             Bound::Paper => self.paper.reserve(gpu, filled)?,
         }
-        self.shows.reserve(gpu, filled * COLUMNS)?;
+        self.shows.reserve(gpu, filled * columns)?;
         self.tasks.reserve(gpu, filled * LISTS)
     }
 
-    /// Has the pipeline for this kernel, this part to be left out, and so many fields.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, kernel: Kernel, without: Without, fields: Fields) {
-        let variant = (kernel.code(), without, fields);
+    /// Has the pipeline for this kernel, this part to be left out, so many fields, and bricks of this width.
+    pub(crate) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        kernel: Kernel,
+        without: Without,
+        fields: Fields,
+        width: BrickWidth,
+    ) {
+        let variant = (kernel.code(), without, fields, width);
         self.pipelines.entry(variant).or_insert_with(|| pipeline(gpu, variant));
     }
 
@@ -149,7 +155,8 @@ impl Adapt {
             &self.work,
         ]
         .map(Buffer::binding);
-        let variant = (scene.kernel.code(), scene.sampling.without, scene.quantity.fields());
+        let Scene { kernel, sampling, quantity, .. } = scene;
+        let variant = (kernel.code(), sampling.without, quantity.fields(), sampling.brick_width);
         let pipeline = &self.pipelines[&variant];
         pipeline.dispatch(gpu, pass, &[shared, &own].concat(), bundles);
     }
@@ -168,11 +175,12 @@ impl Adapt {
     pub(crate) fn rooms(
         &mut self,
         limits: &TileLimits,
-        Contents { fields, bound, .. }: Contents,
+        Contents { fields, bound, column_width, .. }: Contents,
     ) -> Vec<Room<'_>> {
         let filled = limits.filled_cells;
+        let columns = column_width.columns() as u64;
         let [of_bricks, of_slabs] = match bound {
-            Bound::Difference => [filled * COLUMNS, 0],
+            Bound::Difference => [filled * columns, 0],
             Bound::Paper => [0, filled],
         };
         vec![
@@ -181,14 +189,14 @@ impl Adapt {
             (&mut self.bricks, of_bricks * fields.count()),
             (&mut self.offers, of_bricks),
             (&mut self.paper.bounds, of_slabs),
-            (&mut self.shows, filled * COLUMNS),
+            (&mut self.shows, filled * columns),
             (&mut self.bundle_entries, limits.bundles),
             (&mut self.tasks, filled * LISTS),
         ]
     }
 }
 
-fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
+fn pipeline(gpu: &Gpu, (kernel, without, fields, width): Variant) -> Pipeline {
     let left_out = |name, part| (name, f64::from(u8::from(without == part)));
     let description = PipelineDescription {
         label: "choose_levels",
@@ -221,6 +229,7 @@ fn pipeline(gpu: &Gpu, (kernel, without, fields): Variant) -> Pipeline {
         entry_point: "choose_levels",
         constants: &[
             ("KERNEL", f64::from(kernel)),
+            ("COLUMN_SIDE", f64::from(width.rays())),
             left_out("EXTREMES_ONLY", Without::Expansion),
             left_out("NO_COVERAGE", Without::Coverage),
             left_out("FRONT_TO_BACK", Without::GreedFromFront),

@@ -30,7 +30,7 @@ const WHOLE: f32 = 262144.0;
 const SPENT_ENOUGH: u32 = 1u << 31u;
 
 // Costs by column and class, in shares of the budget.
-var<workgroup> spending: array<atomic<u32>, 1024>;
+var<workgroup> spending: array<atomic<u32>, MOST_COLUMNS * CLASSES>;
 
 // The four hulls of a column, one behind the other.
 struct ColumnHull {

@@ -6,7 +6,7 @@
 
 const SHEAF_COLUMNS: u32 = 4u;
 // Of a cell.
-const SHEAVES: u32 = COLUMNS / SHEAF_COLUMNS;
+override SHEAVES: u32 = COLUMNS / SHEAF_COLUMNS;
 // The terms of a particle's weight, moved by up to NEAR radii (survey.wgsl), have magnitudes that add up to no more
 // than so many times its largest weight, whatever the kernel.
 const MOST_MOVED: f32 = 2.0;

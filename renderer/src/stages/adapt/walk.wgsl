@@ -1,6 +1,7 @@
 // A workgroup's walk over the filled cells of its bundle, from front to back, in groups of four.
 
-const GROUP_CELLS: u32 = 4u;
+override GROUP_CELLS: u32 = LANES / COLUMNS;
+const MOST_GROUP_CELLS: u32 = 16u;
 
 // Layers of the filled cells among 64 layers, in order; those layers as bits; how many they are.
 var<workgroup> filled: array<u32, LANES>;

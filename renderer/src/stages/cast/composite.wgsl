@@ -34,7 +34,7 @@ fn segment_in(cell: u32, place: u32, lane: u32) -> vec4<f32> {
     if place > 1u {
         return segments[(place - 2u) * LANES + lane];
     }
-    return shows[(cell_values[cell].slot - FIRST_SLOT) * COLUMNS + lane / 4u];
+    return shows[(cell_values[cell].slot - FIRST_SLOT) * COLUMNS + lane / COLUMN_RAYS];
 }
 
 // Passes the cells of these layers, those in `seen_layers`.

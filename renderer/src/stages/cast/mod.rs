@@ -18,7 +18,7 @@ use crate::error::RenderError;
 use crate::gpu::{Buffer, Gpu, Pipeline, Room};
 use crate::kernel::Kernel;
 use crate::plan::{Tile, TileLimits};
-use crate::sampling::Bound;
+use crate::sampling::{Bound, BrickWidth};
 use crate::scene::Scene;
 pub(crate) use samplers::Variant;
 use samplers::{Samplers, Shaders};
@@ -31,7 +31,8 @@ pub(crate) struct Cast {
     depth: BTreeMap<Variant, Pipeline>,
     /// One a kernel. The paper's bound, whose cells it samples, knows one field.
     coarse: Vec<Pipeline>,
-    composite: Pipeline,
+    /// One for each width of bricks.
+    composite: [Pipeline; 2],
     pub crowds: Crowds,
     /// Premultiplied linear RGB and transparency, 64 pixels a bundle.
     pub pixels: Buffer,
@@ -68,7 +69,7 @@ impl Cast {
         Cast {
             samplers: Kernel::ALL.map(one_field).into(),
             coarse: Kernel::ALL.map(|kernel| shaders.coarse(gpu, kernel)).into(),
-            composite: shaders.composite(gpu),
+            composite: BrickWidth::ALL.map(|width| shaders.composite(gpu, width)),
             depth: BTreeMap::new(),
             shaders,
             crowds: Crowds::new(gpu),
@@ -187,7 +188,7 @@ impl Cast {
             shared,
             &[&self.pixels, segments, &adapt.sampled, &adapt.bundle_entries, values, &adapt.shows],
         );
-        self.composite.dispatch(gpu, pass, &cells, bundles);
+        self.composite[scene.sampling.column_width() as usize].dispatch(gpu, pass, &cells, bundles);
     }
 
     /// The buffers, and the most elements of each under `limits`.

@@ -24,8 +24,8 @@ struct Unit {
 }
 
 fn unit_of(number: u32, units: u32) -> Unit {
-    let brick = todo[min(number, units - 1u) / 4u];
-    let ray = 4u * (brick % COLUMNS) + number % 4u;
+    let brick = todo[min(number, units - 1u) / COLUMN_RAYS];
+    let ray = COLUMN_RAYS * (brick % COLUMNS) + number % COLUMN_RAYS;
     let count = select(0u, 1u, number < units);
     let layer = brick / COLUMNS;
     let depths = select(frame.sample_offset[min(layer, 3u)], level_2_offsets(), layer == LEVEL_2);
@@ -60,7 +60,7 @@ fn finish_unit(unit: Unit, axis: vec2<f32>, reference: Quantity, depth: f32, coa
     }
     let shades = shades_of_four(unit.weights, unit.charges, reference);
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
-        if is_chosen(coarse, unit.ray / 4u, i) {
+        if is_chosen(coarse, unit.ray / COLUMN_RAYS, i) {
             let path = dot(frame.slab_depth[i], vec4(1.0)) * scale;
             strands[4u * unit.ray + i] = composite(vec4(0.0), shades[i], path, unit.depths[i]);
         }
@@ -106,7 +106,7 @@ fn sample_bricks(
     let depths = layer_depth[tile.first_layer + layer];
     let place = vec4(depths.x * axis, depths.y, depths.x);
     let reference = reference_of(first);
-    let units = 4u * count;
+    let units = COLUMN_RAYS * count;
     var number = 0u;
     loop {
         var unit = unit_of(number + lane, units);
@@ -121,9 +121,9 @@ fn sample_bricks(
 
 // Puts into `strands` what stands for a brick that is not sampled at every slice; what is sampled at
 // level 2 is to follow.
-fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_between: bool) {
+fn show_brick(cell: u32, column: u32, brick_layer: u32, first_ray: u32, axis: vec2<f32>, is_between: bool) {
     let middle = middle_of(cell, column, brick_layer, axis);
-    for (var ray = 4u * column; ray < 4u * column + 4u; ray += 1u) {
+    for (var ray = first_ray; ray < first_ray + 4u; ray += 1u) {
         strands[4u * ray + brick_layer] = middle;
     }
     if HAS_LEVEL_2 || !is_between {
@@ -133,9 +133,9 @@ fn show_brick(cell: u32, column: u32, brick_layer: u32, axis: vec2<f32>, is_betw
     let values = bricks[place_of_column(cell, column)];
     var i = 0u;
     loop {
-        let ray = 4u * column + i;
+        let ray = first_ray + i;
         let scale = path_scale_of(depth, axis + ray_from_axis(ray));
-        strands[4u * ray + brick_layer] = pass_slope(vec4(0.0), values, brick_layer, i, scale);
+        strands[4u * ray + brick_layer] = pass_slope(vec4(0.0), values, brick_layer, ray % COLUMN_RAYS, scale);
         i += 1u;
         if i >= 4u {
             break;
@@ -162,15 +162,18 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
     // The lane's brick.
     let column = lane % COLUMNS;
-    let brick_layer = lane / COLUMNS;
+    let brick_layer = lane / COLUMNS % BRICK_DEPTH;
+    let part = lane / BRICKS;
     let bricks_to_do = countOneBits(entry.sampled.x) + countOneBits(entry.sampled.y);
     let columns = select(0u, columns_in(entry.coarse), HAS_LEVEL_2);
     if is_chosen(entry.sampled, column, brick_layer) {
-        todo[rank_of(entry.sampled, column, brick_layer)] = lane;
+        if part == 0u {
+            todo[rank_of(entry.sampled, column, brick_layer)] = lane;
+        }
     } else {
-        show_brick(cell, column, brick_layer, axis, is_chosen(entry.coarse, column, brick_layer));
+        show_brick(cell, column, brick_layer, COLUMN_RAYS * column + 4u * part, axis, is_chosen(entry.coarse, column, brick_layer));
     }
-    if brick_layer == 0u && (columns >> column & 1u) == 1u {
+    if brick_layer == 0u && part == 0u && (columns >> column & 1u) == 1u {
         let before = countOneBits(columns & ((1u << column) - 1u));
         todo[bricks_to_do + before] = LEVEL_2 * COLUMNS + column;
     }

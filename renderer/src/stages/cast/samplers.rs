@@ -5,7 +5,7 @@ use super::super::shared::{
 };
 use crate::gpu::{Access, Gpu, Pipeline, PipelineDescription};
 use crate::kernel::Kernel;
-use crate::sampling::{Between, Bound};
+use crate::sampling::{Between, Bound, BrickWidth};
 use crate::scene::Scene;
 
 const COLOUR_WGSL: &str = include_str!("colour.wgsl");
@@ -27,21 +27,23 @@ pub(crate) struct Variant {
     pub kernel: u32,
     pub fields: Fields,
     pub has_crowds: bool,
+    pub brick_width: BrickWidth,
     /// Bricks may be sampled at level 2.
     pub has_level_2: bool,
 }
 
 impl Variant {
-    /// Without crowds and level 2.
+    /// Without crowds and level 2, with bricks of the usual width.
     pub fn plain(kernel: Kernel, fields: Fields) -> Variant {
-        Variant { kernel: kernel.code(), fields, has_crowds: false, has_level_2: false }
+        let brick_width = BrickWidth::default();
+        Variant { kernel: kernel.code(), fields, has_crowds: false, brick_width, has_level_2: false }
     }
 
     pub fn of(scene: &Scene, has_crowds: bool) -> Variant {
         let sampling = &scene.sampling;
         let has_level_2 = sampling.bound == Bound::Difference && sampling.between() == Between::Levels;
         let plain = Variant::plain(scene.kernel, scene.quantity.fields());
-        Variant { has_crowds, has_level_2, ..plain }
+        Variant { has_crowds, brick_width: sampling.column_width(), has_level_2, ..plain }
     }
 }
 
@@ -107,11 +109,11 @@ impl Shaders {
     }
 
     /// What puts cells together, whatever they were sampled from.
-    pub fn composite(&self, gpu: &Gpu) -> Pipeline {
+    pub fn composite(&self, gpu: &Gpu, brick_width: BrickWidth) -> Pipeline {
         use Access::{Read, Write};
         let bindings = [Write, Read, Read, Read, Read, Read];
         let sources = [HULL_WGSL, include_str!("composite.wgsl")];
-        let variant = Variant::plain(Kernel::default(), Fields::One);
+        let variant = Variant { brick_width, ..Variant::plain(Kernel::default(), Fields::One) };
         self.pipeline(gpu, variant, "composite_cells", &sources, &bindings)
     }
 
@@ -126,12 +128,13 @@ impl Shaders {
         let on = |name, value| (name, f64::from(u8::from(value)));
         let constants = [
             ("KERNEL", f64::from(variant.kernel)),
+            ("COLUMN_SIDE", f64::from(variant.brick_width.rays())),
             on("COUNT_INSIDE", self.count_inside),
             on("SOME_SHOWN", sources.contains(&WORK_WGSL)),
             on("HAS_CROWDS", variant.has_crowds),
             on("HAS_LEVEL_2", variant.has_level_2),
         ];
-        let used = if sources.contains(&SAMPLES_WGSL) { constants.len() } else { 1 };
+        let used = if sources.contains(&SAMPLES_WGSL) { constants.len() } else { 2 };
         let shared = [FRAME_WGSL, KERNEL_WGSL, variant.fields.wgsl(), BUNDLE_WGSL, TRANSFER_WGSL];
         Pipeline::new(
             gpu,

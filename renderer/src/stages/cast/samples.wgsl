@@ -249,7 +249,7 @@ fn pass_brick(
     if HAS_LEVEL_2 && is_between {
         return composite(cell, coarse.shades[brick_layer], dot(paths, vec4(1.0)), level_2_offsets()[brick_layer]);
     }
-    return cell + (1.0 - cell.a) * middles[16u * brick_layer + lane / 4u];
+    return cell + (1.0 - cell.a) * middles[COLUMNS * brick_layer + lane / COLUMN_RAYS];
 }
 
 fn positive(k: vec4<f32>) -> u32 {

@@ -10,14 +10,16 @@ fn sample_wholes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     let cell = task.x;
     let entry = cell_values[cell];
     let axis = ray_slope(frame, corner_of(cell / tile.layers) + 3.5);
-    middles[lane] = middle_of(cell, lane % COLUMNS, lane / COLUMNS, axis);
-    let values = bricks[place_of_column(cell, lane / 4u)];
+    if lane < BRICKS {
+        middles[lane] = middle_of(cell, lane % COLUMNS, lane / COLUMNS, axis);
+    }
+    let values = bricks[place_of_column(cell, lane / COLUMN_RAYS)];
     var sampled = 0u;
     for (var i = 0u; i < BRICK_DEPTH; i += 1u) {
-        sampled |= select(0u, 1u << i, is_chosen(entry.sampled, lane / 4u, i));
-        sampled |= select(0u, 16u << i, is_chosen(entry.coarse, lane / 4u, i));
+        sampled |= select(0u, 1u << i, is_chosen(entry.sampled, lane / COLUMN_RAYS, i));
+        sampled |= select(0u, 16u << i, is_chosen(entry.coarse, lane / COLUMN_RAYS, i));
         if !HAS_LEVEL_2 {
-            on_slope[i] = charges_on_slope(values, i, lane % 4u);
+            on_slope[i] = charges_on_slope(values, i, lane % COLUMN_RAYS);
         }
     }
     workgroupBarrier();

@@ -7,7 +7,6 @@
 // added to the upper one where every sample meets a particle. Where no sample meets one, they are
 // EMPTY: a state of its own, never inverted bounds.
 
-const COLUMNS: u32 = 16u;
 const BRICK_DEPTH: u32 = 4u;
 const EMPTY: vec2<f32> = vec2(-1.0, -1.0);
 const COVERED: f32 = 2.0;
@@ -49,7 +48,9 @@ fn no_values() -> ColumnValues {
 // The quantity at a ray's samples in a brick, by the brick's slope. `ray`: 0 to 3 in the column.
 fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
     let depths = frame.sample_offset[brick];
-    let side = vec2(select(-1.0, 1.0, (ray & 1u) == 1u), select(1.0, -1.0, (ray & 2u) == 2u));
+    let place = vec2<f32>(place_in_bundle(ray));
+    let last_ray = f32(COLUMN_SIDE) - 1.0;
+    let side = vec2(2.0 * place.x - last_ray, last_ray - 2.0 * place.y) / last_ray;
     let aside = (1.0 + depths) / ((1.0 + depths.w) * SLACK);
     let behind = (2.0 * depths - depths.x - depths.w) / ((depths.w - depths.x) * SLACK);
     let rise_across = dot(unpack_slope(values.across[brick]), side);
@@ -189,8 +190,8 @@ struct Band {
 // cell's middle. `slope`: of the column's axis.
 fn paths_of(brick_layer: u32, slope: vec2<f32>) -> vec2<f32> {
     let depth = dot(frame.slab_depth[brick_layer], vec4(1.0)) * frame.path_scale;
-    let nearest = max(abs(slope) - 0.5 * frame.pitch, vec2(0.0));
-    let farthest = abs(slope) + 0.5 * frame.pitch;
+    let nearest = max(abs(slope) - 0.5 * (f32(COLUMN_SIDE) - 1.0) * frame.pitch, vec2(0.0));
+    let farthest = abs(slope) + 0.5 * (f32(COLUMN_SIDE) - 1.0) * frame.pitch;
     let lengths = vec2(length(vec3(nearest, 1.0)), length(vec3(farthest, 1.0)));
     return depth * lengths * vec2(1.0 - ROUNDING, 1.0 + ROUNDING);
 }
@@ -198,10 +199,11 @@ fn paths_of(brick_layer: u32, slope: vec2<f32>) -> vec2<f32> {
 // The column's axis, in slope from that of the bundle.
 fn column_from_axis(column: u32) -> vec2<f32> {
     let place = vec2<f32>(place_in_bundle(column));
-    return vec2(2.0 * place.x - 3.0, 3.0 - 2.0 * place.y) * frame.pitch;
+    let from_corner = f32(COLUMN_SIDE) * place - 0.5 * f32(BUNDLE_SIDE - COLUMN_SIDE);
+    return vec2(from_corner.x, -from_corner.y) * frame.pitch;
 }
 
 // Whether any ray of a column belongs to the picture.
 fn column_in_picture(corner: vec2<f32>, column: u32) -> bool {
-    return all(corner + 2.0 * vec2<f32>(place_in_bundle(column)) < vec2<f32>(frame.size));
+    return all(corner + f32(COLUMN_SIDE) * vec2<f32>(place_in_bundle(column)) < vec2<f32>(frame.size));
 }
