@@ -56,7 +56,7 @@ fn a_bench_writes_tables_that_agree_and_plots() {
     let json: serde_json::Value =
         serde_json::from_slice(&fs::read(results.join("bench.json")).unwrap()).unwrap();
     assert_eq!((&json["complete"], &json["frames"]), (&true.into(), &2.into()));
-    for (table, file, count) in [("settings", "settings.csv", 14), ("by_frame", "frames.csv", 28)] {
+    for (table, file, count) in [("settings", "settings.csv", 15), ("by_frame", "frames.csv", 30)] {
         let rows = rows(&results.join(file));
         assert_eq!((rows.len(), json[table].as_array().unwrap().len()), (count, count), "{file}");
         for (row, value) in rows.iter().zip(json[table].as_array().unwrap()) {

@@ -13,7 +13,7 @@ struct Change {
 }
 
 /// Where a shader is rewritten, the text of its mutant is to follow.
-const MUTANTS: [Change; 29] = [
+const MUTANTS: [Change; 28] = [
     Change {
         what: "the remainder of the expansion is dropped",
         edits: &[("kernel_rest(ways) + 1e-6 * jet.bend", "vec4(0.0)")],
@@ -29,14 +29,6 @@ const MUTANTS: [Change; 29] = [
     Change {
         what: "the terms of second order are dropped",
         edits: &[("return 0.5 * squares + width *", "return vec4(0.0) * width *")],
-    },
-    Change {
-        what: "all rays of a wide column are taken to be as far to its side as above it",
-        edits: &[
-            ("if COLUMN_SIDE == 2u {", "if true {"),
-            ("let least = column.least_width * column.least_width;", "let least = greatest;"),
-            ("if COLUMN_SIDE > 2u {", "if false {"),
-        ],
     },
     Change {
         what: "the gradient of the sums is dropped",

@@ -44,7 +44,7 @@ fn channels(path: &Path) -> BTreeMap<String, Vec<f32>> {
 fn layers_are_channels_of_the_exr_and_leave_its_colour_alone() {
     let folder = folder();
     let view = r#"{"camera": {"eye": [0, 0, 5], "target": [0, 0, 0]},
-                   "sampling": {"tolerance": 0.01, "always_adaptive": true}}"#;
+                   "sampling": {"tolerance": 0.01, "always_adaptive": true, "brick_width": 2}}"#;
     std::fs::write(folder.path().join("view.json"), view).unwrap();
     let render = |out: &str, more: &[&str]| {
         let arguments =

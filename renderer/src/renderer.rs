@@ -159,7 +159,13 @@ impl Renderer {
             let variant = Variant::plain(Kernel::default(), Fields::Two);
             renderer.cast.prepare(&renderer.gpu, variant);
             renderer.cast.prepare_depth(&renderer.gpu, variant);
-            renderer.adapt.prepare(&renderer.gpu, Kernel::default(), Without::Nothing, Fields::Two, BrickWidth::default());
+            renderer.adapt.prepare(
+                &renderer.gpu,
+                Kernel::default(),
+                Without::Nothing,
+                Fields::Two,
+                BrickWidth::default(),
+            );
         }
         if let Some(text) = renderer.gpu.edits.unmade() {
             return Err(RenderError::Device(format!("no shader has the text to be edited: {text}")));

@@ -16,7 +16,11 @@ use super::cell_classes;
 const KINDS: [(Kind, &str, &str); 4] = [
     (Kind::Off, "Off", "The picture alone"),
     (Kind::Classes, "Classes", "What became of the cells: 8 × 8 pixels × 16 slices each"),
-    (Kind::Predicted, "Predicted", "The largest error that each 2 × 2 pixels may have, as charged to them"),
+    (
+        Kind::Predicted,
+        "Predicted",
+        "The largest error that the pixels of each column of bricks may have, as charged to them",
+    ),
     (Kind::Measured, "Measured", "The error of each pixel against full sampling; measures it first"),
 ];
 const DEPTHS: [(Which, &str, &str); 3] = [

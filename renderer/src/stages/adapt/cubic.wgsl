@@ -81,7 +81,7 @@ fn cubic_plus(sum: Cubic, factor: vec4<f32>, term: Cubic) -> Cubic {
     );
 }
 
-// By how much these terms may exceed zero, or fall below it. All samples of a column have a² = b² (bricks.wgsl).
+// By how much these terms may exceed zero, or fall below it. Of 2 × 2 rays, all have a² = b².
 fn twist(f: Cubic, column: Column) -> vec4<f32> {
     if !has_cubic() {
         return vec4(0.0);
@@ -89,11 +89,11 @@ fn twist(f: Cubic, column: Column) -> vec4<f32> {
     let width = column.half_width;
     let depth = column.half_depth;
     var sideways = abs(f.aaa + f.abb) + abs(f.bbb + f.aab);
-    var askew = abs(f.aas + f.bbs);
+    var leaning = abs(f.aas + f.bbs);
     if COLUMN_SIDE > 2u {
         sideways = abs(f.aaa) + abs(f.abb) + abs(f.bbb) + abs(f.aab);
-        askew = abs(f.aas) + abs(f.bbs);
+        leaning = abs(f.aas) + abs(f.bbs);
     }
-    let across = width * (width * sideways + depth * (askew + abs(f.abs)));
+    let across = width * (width * sideways + depth * (leaning + abs(f.abs)));
     return width * across + depth * depth * (depth * abs(f.sss) + width * (abs(f.ass) + abs(f.bss)));
 }

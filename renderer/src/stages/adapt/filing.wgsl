@@ -6,7 +6,7 @@
 @group(0) @binding(19) var<storage, read_write> tasks: array<vec2<u32>>;
 @group(0) @binding(20) var<storage, read_write> work: array<atomic<u32>, 4>;
 
-// Bricks and columns that four lanes can sample, each with two units of work.
+// Bricks, and columns at level 2, that lanes can sample with two units of work each (cast/parts.wgsl).
 override MOST_UNITS: u32 = 2u * LANES / COLUMN_RAYS;
 
 // Bricks of the group's cells to be sampled at every slice, and those between: two words each (CellEntry).

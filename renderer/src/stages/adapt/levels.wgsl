@@ -30,7 +30,7 @@ struct Place {
     index: u32,
     // Slope of the bundle's axis.
     axis: vec2<f32>,
-    // The lane's cell in a group of four, and column.
+    // The lane's cell in its group, and column.
     number: u32,
     column: u32,
 }

@@ -58,6 +58,18 @@ fn swing(f: Taylor, column: Column) -> vec4<f32> {
     return column.half_width * (abs(f.a) + abs(f.b)) + column.half_depth * abs(f.s);
 }
 
+// By how much the quadratic part exceeds zero at most (side 1), or falls below it (side −1); less than 0 where it
+// always does the opposite.
+fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
+    let width = column.half_width;
+    let depth = column.half_depth;
+    let along = side * f.ss;
+    let least_along = along * column.least_depth * column.least_depth;
+    let squares = across_sag(f, column, side) + max(along * depth * depth, least_along);
+    return 0.5 * squares + width * (width * abs(f.ab) + depth * (abs(f.sa) + abs(f.sb)));
+}
+
+// The same of what is quadratic across the column. Of 2 × 2 rays, each lies as far aside to a as to b.
 fn across_sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
     let greatest = column.half_width * column.half_width;
     let least = column.least_width * column.least_width;
@@ -68,17 +80,6 @@ fn across_sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
     let a = side * f.aa;
     let b = side * f.bb;
     return max(a * greatest, a * least) + max(b * greatest, b * least);
-}
-
-// By how much the quadratic part exceeds zero at most (side 1), or falls below it (side −1); less than 0 where it
-// always does the opposite. Samples lie as far aside to a as to b.
-fn sag(f: Taylor, column: Column, side: f32) -> vec4<f32> {
-    let width = column.half_width;
-    let depth = column.half_depth;
-    let along = side * f.ss;
-    let least_along = along * column.least_depth * column.least_depth;
-    let squares = across_sag(f, column, side) + max(along * depth * depth, least_along);
-    return 0.5 * squares + width * (width * abs(f.ab) + depth * (abs(f.sa) + abs(f.sb)));
 }
 
 fn sag_either_way(f: Taylor, column: Column) -> vec4<f32> {

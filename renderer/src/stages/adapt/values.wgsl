@@ -1,5 +1,5 @@
-// The quantity's bounds in the bricks of cells, found out and kept: by columns of four cells, or by sheaves of sixteen
-// cells at a time. So each lane has a column or a sheaf, of four columns or of all.
+// The quantity's bounds in the bricks of cells, found out and kept: by columns of a group of cells, or by sheaves of
+// sixteen cells at a time. So each lane has a column or a sheaf, of four columns or of all.
 
 // Which of so many particles that are loaded may reach the column, as bits. Found out before any of them is
 // added: lanes that run together then each add one of theirs, not all the same one.

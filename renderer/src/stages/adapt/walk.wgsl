@@ -1,5 +1,7 @@
-// A workgroup's walk over the filled cells of its bundle, from front to back, in groups of four.
+// A workgroup's walk over the filled cells of its bundle, from front to back, in groups of so many that each of their columns has
+// a lane.
 
+// 4 or 16.
 override GROUP_CELLS: u32 = LANES / COLUMNS;
 const MOST_GROUP_CELLS: u32 = 16u;
 

@@ -3,7 +3,7 @@
 // brick.
 
 // Bricks to be sampled at every slice, then columns to be sampled at level 2: brick b of column c is
-// 16b + c, and column c is 64 + c. At most 32, two units of work a lane, one after the other.
+// COLUMNS·b + c, and column c stands behind all of them. At most two units of work a lane, one after the other.
 var<workgroup> todo: array<u32, LANES>;
 // Colour and opacity of ray r in the brick layer b of the cell: 4r + b.
 var<workgroup> strands: array<vec4<f32>, 256>;
@@ -119,8 +119,8 @@ fn sample_bricks(
     }
 }
 
-// Puts into `strands` what stands for a brick that is not sampled at every slice; what is sampled at
-// level 2 is to follow.
+// Puts into `strands` what stands for four rays, from one on, of a brick that is not sampled at every slice; what is
+// sampled at level 2 is to follow.
 fn show_brick(cell: u32, column: u32, brick_layer: u32, first_ray: u32, axis: vec2<f32>, is_between: bool) {
     let middle = middle_of(cell, column, brick_layer, axis);
     for (var ray = first_ray; ray < first_ray + 4u; ray += 1u) {
@@ -163,6 +163,7 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     // The lane's brick.
     let column = lane % COLUMNS;
     let brick_layer = lane / COLUMNS % BRICK_DEPTH;
+    // Of that, four rays.
     let part = lane / BRICKS;
     let bricks_to_do = countOneBits(entry.sampled.x) + countOneBits(entry.sampled.y);
     let columns = select(0u, columns_in(entry.coarse), HAS_LEVEL_2);
@@ -171,7 +172,8 @@ fn sample_parts(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
             todo[rank_of(entry.sampled, column, brick_layer)] = lane;
         }
     } else {
-        show_brick(cell, column, brick_layer, COLUMN_RAYS * column + 4u * part, axis, is_chosen(entry.coarse, column, brick_layer));
+        let is_between = is_chosen(entry.coarse, column, brick_layer);
+        show_brick(cell, column, brick_layer, COLUMN_RAYS * column + 4u * part, axis, is_between);
     }
     if brick_layer == 0u && part == 0u && (columns >> column & 1u) == 1u {
         let before = countOneBits(columns & ((1u << column) - 1u));

@@ -10,7 +10,9 @@
 // Costs of a column's bricks (adapt/offers.wgsl), negative where no light comes from.
 @group(0) @binding(19) var<storage, read> offers: array<array<vec4<f32>, 2>>;
 
+// Of a cell.
 override BRICKS: u32 = COLUMNS * BRICK_DEPTH;
+
 fn task_at(list: u32, number: u32) -> vec2<u32> {
     return tasks[place_in_list(list, number, arrayLength(&tasks))];
 }

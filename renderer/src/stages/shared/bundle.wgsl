@@ -53,12 +53,15 @@ const CELLS_Z_ADAPTIVE: u32 = 12u;
 
 const LANES: u32 = 64u;
 
-// A bundle is cut into columns of 2 × 2 or 4 × 4 rays, on the same Morton curve as rays: those of column c are the rays
-// of lanes COLUMN_RAYS·c and so on.
+// A bundle has columns of 2 × 2 or 4 × 4 rays. They follow the same Morton curve as rays, so that those of column c are
+// of the lanes from COLUMN_RAYS·c on.
 override COLUMN_SIDE: u32 = 2u;
 override COLUMN_RAYS: u32 = COLUMN_SIDE * COLUMN_SIDE;
 override COLUMNS: u32 = LANES / COLUMN_RAYS;
 const MOST_COLUMNS: u32 = 16u;
+// From the axis of a column to its outermost rays, in pixels.
+override HALF_COLUMN: f32 = 0.5 * (f32(COLUMN_SIDE) - 1.0);
+
 // Quantity of a particle that is left out (Quantity::REJECTED).
 const REJECTED: f32 = 1e38;
 

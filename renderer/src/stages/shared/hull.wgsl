@@ -1,7 +1,6 @@
 // What a stretch of a few rays through one brick can do to the light behind it.
 //
-// A brick is 2 × 2 rays × 4 slices; a cell has 16 columns of them, 4 deep. Columns follow the same
-// Morton curve as rays, so that the rays of column c are those of lanes 4c to 4c + 3.
+// A brick is the rays of a column × 4 slices; the columns of a cell are 4 deep.
 //
 // A brick's values are two numbers, bounds of the quantity at all its samples, in [0, 1]; COVERED is
 // added to the upper one where every sample meets a particle. Where no sample meets one, they are
@@ -45,12 +44,11 @@ fn no_values() -> ColumnValues {
     return ColumnValues(none, none, vec4(0.0), vec4(0u), vec4(0u));
 }
 
-// The quantity at a ray's samples in a brick, by the brick's slope. `ray`: 0 to 3 in the column.
+// The quantity at a ray's samples in a brick, by the brick's slope. `ray`: its number in the column.
 fn values_on_slope(values: ColumnValues, brick: u32, ray: u32) -> vec4<f32> {
     let depths = frame.sample_offset[brick];
     let place = vec2<f32>(place_in_bundle(ray));
-    let last_ray = f32(COLUMN_SIDE) - 1.0;
-    let side = vec2(2.0 * place.x - last_ray, last_ray - 2.0 * place.y) / last_ray;
+    let side = vec2(place.x - HALF_COLUMN, HALF_COLUMN - place.y) / HALF_COLUMN;
     let aside = (1.0 + depths) / ((1.0 + depths.w) * SLACK);
     let behind = (2.0 * depths - depths.x - depths.w) / ((depths.w - depths.x) * SLACK);
     let rise_across = dot(unpack_slope(values.across[brick]), side);
@@ -190,8 +188,8 @@ struct Band {
 // cell's middle. `slope`: of the column's axis.
 fn paths_of(brick_layer: u32, slope: vec2<f32>) -> vec2<f32> {
     let depth = dot(frame.slab_depth[brick_layer], vec4(1.0)) * frame.path_scale;
-    let nearest = max(abs(slope) - 0.5 * (f32(COLUMN_SIDE) - 1.0) * frame.pitch, vec2(0.0));
-    let farthest = abs(slope) + 0.5 * (f32(COLUMN_SIDE) - 1.0) * frame.pitch;
+    let nearest = max(abs(slope) - HALF_COLUMN * frame.pitch, vec2(0.0));
+    let farthest = abs(slope) + HALF_COLUMN * frame.pitch;
     let lengths = vec2(length(vec3(nearest, 1.0)), length(vec3(farthest, 1.0)));
     return depth * lengths * vec2(1.0 - ROUNDING, 1.0 + ROUNDING);
 }

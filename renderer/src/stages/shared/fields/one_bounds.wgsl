@@ -21,7 +21,7 @@ fn seen_in(column: FieldValues, brick: u32) -> Seen {
     return Seen(values, shades_over(values), unpack_slope(column.along[brick]).y);
 }
 
-// The quantity at a ray's samples in a brick, by the brick's slope. `ray`: 0 to 3 in the column.
+// The quantity at a ray's samples in a brick, by the brick's slope. `ray`: its number in the column.
 fn charges_on_slope(column: FieldValues, brick: u32, ray: u32) -> Charges {
     return values_on_slope(column, brick, ray);
 }

@@ -36,7 +36,7 @@ fn seen_in(column: FieldValues, brick: u32) -> Seen {
     return Seen(values, Shades(range, strays), 1.0);
 }
 
-// The quantities at a ray's samples in a brick, by the brick's slopes. `ray`: 0 to 3 in the column.
+// The quantities at a ray's samples in a brick, by the brick's slopes. `ray`: its number in the column.
 fn charges_on_slope(column: FieldValues, brick: u32, ray: u32) -> Charges {
     return Charges(values_on_slope(column.colour, brick, ray), values_on_slope(column.opacity, brick, ray));
 }
