@@ -10,7 +10,7 @@ use reference::guarantee::prepare_anyway;
 use reference::neighbours::Neighbours;
 use reference::scenes::{self, Scene, Shape, grey};
 use reference::setup::Setup;
-use renderer::{Gpu, GpuOptions, Kernel, Renderer, Stats};
+use renderer::{BrickWidth, Gpu, GpuOptions, Kernel, Renderer, Stats};
 
 /// Scenes in which every ray goes all the way through.
 fn clear_scenes() -> Vec<Scene> {
@@ -108,14 +108,14 @@ fn a_counting_renderer_knows_which_evaluations_were_inside() {
     assert_eq!((counted.done, plain.evaluations.inside), (plain.evaluations.done, 0));
 }
 
-/// So many particles of this radius in a single cell, and the weights that its analysis computes.
-fn weights_of_analysis(count: usize, support_radius: f64) -> u64 {
+/// So many particles of this radius in a single cell, and the weights that its analysis computes for bricks so wide.
+fn weights_of_analysis(count: usize, support_radius: f64, width: BrickWidth) -> u64 {
     let mut scene = scenes::plain(141, 8, 8);
     let camera = scene.view.camera.as_mut().expect("plain scenes have a camera");
     let middle = (camera.target - camera.eye).length();
     (camera.near, camera.far) = (Some(0.99 * middle), Some(1.01 * middle));
     scene.view.transfer.points = vec![grey(0.0, 0.5, 0.1), grey(1.0, 0.5, 0.2)];
-    scene.view.sampling.tolerance = Some(0.01);
+    (scene.view.sampling.tolerance, scene.view.sampling.brick_width) = (Some(0.01), width);
     scene.particles.truncate(count);
     for particle in &mut scene.particles {
         (particle.position, particle.support_radius) = (0.01 * particle.position, support_radius);
@@ -128,9 +128,10 @@ fn weights_of_analysis(count: usize, support_radius: f64) -> u64 {
 #[test]
 fn the_analysis_computes_a_weight_in_each_brick_of_the_columns_that_a_particle_meets() {
     for count in [1, 2, 17, 40] {
-        assert_eq!(weights_of_analysis(count, 2.5), 64 * count as u64);
+        assert_eq!(weights_of_analysis(count, 2.5, BrickWidth::Two), 64 * count as u64);
+        assert_eq!(weights_of_analysis(count, 2.5, BrickWidth::Four), 16 * count as u64);
     }
-    let weights = [1.5, 1.1, 0.8].map(|radius| weights_of_analysis(1, radius));
+    let weights = [1.5, 1.1, 0.8].map(|radius| weights_of_analysis(1, radius, BrickWidth::Two));
     assert!(weights.is_sorted_by(|a, b| a > b), "{weights:?}");
     assert!(weights.iter().all(|weights| *weights > 0 && weights % 4 == 0), "{weights:?}");
 }
@@ -138,6 +139,6 @@ fn the_analysis_computes_a_weight_in_each_brick_of_the_columns_that_a_particle_m
 #[test]
 fn where_supports_are_large_four_columns_share_their_weights() {
     for count in [1, 2, 17, 40] {
-        assert_eq!(weights_of_analysis(count, 10.0), 16 * count as u64);
+        assert_eq!(weights_of_analysis(count, 10.0, BrickWidth::Two), 16 * count as u64);
     }
 }
