@@ -11,7 +11,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, bail};
-use renderer::{Bound, BundleCells, CellClass, CellMap, Gpu, GpuOptions, GridCell, Renderer, Scene, View};
+use renderer::{
+    Bound, BrickWidth, BundleCells, CellClass, CellMap, Gpu, GpuOptions, GridCell, Renderer, Scene, View,
+};
 use sphcast::frames::Sequence;
 use sphcast::{scene, view_file};
 
@@ -25,6 +27,7 @@ fn main() -> anyhow::Result<()> {
     (view.image.width, view.image.height) = (width.parse()?, height.parse()?);
     view.sampling.tolerance = Some(tolerance.parse()?);
     view.sampling.always_adaptive = true;
+    view.sampling.brick_width = BrickWidth::Two;
     let frame =
         Sequence::open(&[file.into()])?.sources()[0].load(&Default::default()).context(file.clone())?;
     let particles = Arc::new(scene::particles(&frame, view.particles.support_radius)?);
