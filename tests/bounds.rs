@@ -301,8 +301,19 @@ fn search(
     bundles: usize,
     enough: usize,
 ) -> (Seen, Vec<String>) {
+    search_in(renderer, scenes(seeds, fields), reading, bundles, enough)
+}
+
+/// The same in these scenes.
+fn search_in(
+    renderer: &mut Renderer,
+    scenes: impl Iterator<Item = Scene>,
+    reading: Reading,
+    bundles: usize,
+    enough: usize,
+) -> (Seen, Vec<String>) {
     let (mut seen, mut broken) = (Seen::default(), Vec::new());
-    for (seed, scene) in (0..).zip(scenes(seeds, fields)) {
+    for (seed, scene) in (0..).zip(scenes) {
         let (twin, prepared) = (Bricks::new(&scene), prepare_anyway(&scene));
         render(renderer, &prepared);
         let mut random = Random::new(seed);
@@ -406,4 +417,35 @@ fn wrong_bounds_are_noticed() {
             println!("{what}: {}", broken[0]);
         }
     }
+}
+
+/// Smooth, and bent one way to the side, the other way upward: by as much, so that both together are flat.
+fn saddle(seed: u64) -> Scene {
+    let mut scene = calm(seed, 65, 43);
+    let camera = scene.view.camera.expect("it has a camera");
+    let forward = (camera.target - camera.eye).normalize();
+    let right = forward.cross(camera.up).normalize();
+    let up = right.cross(forward);
+    for particle in &mut scene.particles {
+        let from_axis = (particle.position - camera.target) / particle.support_radius;
+        particle.quantity = 0.5 + 0.3 * (from_axis.dot(right).powi(2) - from_axis.dot(up).powi(2));
+    }
+    scene.view.quantity.range = Some([0.0, 1.0]);
+    scene
+}
+
+#[test]
+fn rays_of_wide_columns_that_are_taken_to_be_as_far_aside_as_above_are_noticed() {
+    let edits = [
+        ("if COLUMN_SIDE == 2u {", "if true {"),
+        ("let least = column.least_width * column.least_width;", "let least = greatest;"),
+        ("if COLUMN_SIDE > 2u {", "if false {"),
+    ];
+    let shader_edits = edits.map(|(from, to)| (from.to_string(), to.to_string())).to_vec();
+    let mut renderer = open(&GpuOptions { shader_edits, ..GpuOptions::default() });
+    let saddle = || std::iter::once(saddle(71));
+    let (_, broken) = search_in(&mut shared(), saddle(), AS_IT_IS, 3, 20);
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    let (seen, broken) = search_in(&mut renderer, saddle(), AS_IT_IS, 3, 1);
+    assert!(!broken.is_empty(), "{seen:?}");
 }
