@@ -110,7 +110,7 @@ fn brick_width(ui: &mut Ui, width: &mut BrickWidth) {
         (
             BrickWidth::Two,
             "2 × 2 rays",
-            "Leaves the least to be sampled, but it takes about twice as long to find out what",
+            "Leaves the least to be sampled, but it takes up to twice as long to find out what",
         ),
     ];
     widgets::row(ui, "Bricks", |ui| widgets::choice(ui, width, &choices));

@@ -1,5 +1,5 @@
-//! Adaptive sampling: bounds of the quantity in each brick of 2 × 2 rays × 4 slices, and the choice
-//! of the bricks that need no samples. Bricks are 2 × 2 or 4 × 4 rays × 4 slices.
+//! Adaptive sampling: bounds of the quantity in each brick of 4 × 4 or 2 × 2 rays × 4 slices, and the choice
+//! of the bricks that need no samples.
 //!
 //! The bounds of a cell are found out when a picture first needs them and stay until the grid, the
 //! quantity or the kernel changes; the choice is made anew for each picture. [`paper`] is another way.
