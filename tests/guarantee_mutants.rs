@@ -35,11 +35,8 @@ const MUTANTS: [Change; 28] = [
         edits: &[("column.half_width * (abs(f.a) + abs(f.b))", "vec4(0.0)")],
     },
     Change {
-        what: "particles that only touch a column are left out of it",
-        edits: &[(
-            "(inverseSqrt(ball.w) + sqrt(2.0) * column.half_width.w) * SLACK",
-            "0.8 * inverseSqrt(ball.w)",
-        )],
+        what: "particles that only touch a brick are left out of it",
+        edits: &[("+ ways.nearing > vec4(-2e-5)", "+ ways.nearing > vec4(0.3)")],
     },
     Change {
         what: "a column has the expansion of its sheaf, unmoved",

@@ -85,17 +85,6 @@ fn no_expansion() -> Expansion {
     return Expansion(no_taylor(), no_taylor(), none, none, none, none, vec4(FAR), vec4(-FAR), 0.0, 0.0);
 }
 
-// Whether a particle may reach any sample of a column: they lie beside a stretch of its direction.
-fn may_reach(column: Column, ball: vec4<f32>) -> bool {
-    let offset = ball.xyz - vec3(column.from_axis, 0.0);
-    let along = dot(offset, column.direction) / dot(column.direction, column.direction);
-    let first = column.depth.x - column.half_depth.x;
-    let last = column.depth.w + column.half_depth.w;
-    let closest = offset - clamp(along, first, last) * column.direction;
-    let reach = (inverseSqrt(ball.w) + sqrt(2.0) * column.half_width.w) * SLACK;
-    return dot(closest, closest) < reach * reach;
-}
-
 // What a particle adds to the sums of a column's bricks, whatever its quantity.
 struct Share {
     term: Taylor,

@@ -1,4 +1,5 @@
-// What a cell is as a whole: the extremes of the quantity, and what tells whether it is smooth and amid the fluid.
+// What a cell is as a whole: the extremes of the quantity, and, where sheaves may do, what tells whether it is smooth
+// and amid the fluid.
 
 // Of each cell of a stretch (survey.wgsl), as bits of floats that are not negative: they are in their order.
 var<workgroup> cell_low: array<atomic<u32>, STRETCH_CELLS>;
@@ -58,10 +59,12 @@ fn whole_of(cell: Cell, unknown: bool, axis: vec2<f32>, lane: u32) -> Whole {
         let u = for_opacity(in_range(quantity));
         low = select(min(low, u), low, is_rejected(quantity));
         high = select(max(high, u), high, is_rejected(quantity));
-        stray = max(stray, stray_of(in_range(quantity), origin));
-        let ball = projected[particle];
-        smallest = min(smallest, ball.w);
-        sides |= sides_passed((ball.xyz - middle) / depths.x, axis);
+        if HAS_SHEAVES {
+            let ball = projected[particle];
+            stray = max(stray, stray_of(in_range(quantity), origin));
+            smallest = min(smallest, ball.w);
+            sides |= sides_passed((ball.xyz - middle) / depths.x, axis);
+        }
     }
     atomicMin(&cell_low[number], bitcast<u32>(low));
     atomicMax(&cell_high[number], bitcast<u32>(high));

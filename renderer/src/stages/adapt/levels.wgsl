@@ -115,7 +115,9 @@ fn offer_stretch(
     walk: ptr<function, Walk>, place: Place, paths: array<vec2<f32>, 4>, lane: u32, front: ptr<function, Front>,
 ) -> bool {
     survey(*walk, place.index, place.axis, lane);
-    bound_stretch(*walk, place.index, place.axis, lane);
+    if HAS_SHEAVES {
+        bound_stretch(*walk, place.index, place.axis, lane);
+    }
     let end = min((*walk).next + STRETCH_CELLS, (*walk).count);
     var by_columns = workgroupUniformLoad(&cells_by_columns);
     var is_open = true;

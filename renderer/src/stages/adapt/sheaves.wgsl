@@ -7,6 +7,9 @@
 const SHEAF_COLUMNS: u32 = 4u;
 // Of a cell.
 override SHEAVES: u32 = COLUMNS / SHEAF_COLUMNS;
+// Where a cell has no more columns, each has its own expansion: a lane does no more for it than for a sheaf, and other
+// lanes would wait for that one.
+override HAS_SHEAVES: bool = COLUMNS > SHEAF_COLUMNS;
 // The terms of a particle's weight, moved by up to NEAR radii (survey.wgsl), have magnitudes that add up to no more
 // than so many times its largest weight, whatever the kernel.
 const MOST_MOVED: f32 = 2.0;

@@ -26,7 +26,10 @@ fn is_smooth(whole: Whole, columns: u32, loss: f32, axis: vec2<f32>) -> bool {
 
 // How the bricks of a cell are to be bounded.
 fn way_to_bound(whole: Whole, axis: vec2<f32>) -> u32 {
-    let by_sheaves = COLUMNS > SHEAF_COLUMNS && is_smooth(whole, SHEAF_COLUMNS, LOSS_OF_FOUR, axis);
+    if !HAS_SHEAVES {
+        return BY_COLUMNS;
+    }
+    let by_sheaves = is_smooth(whole, SHEAF_COLUMNS, LOSS_OF_FOUR, axis);
     let as_sheaf = whole.is_amid && is_smooth(whole, COLUMNS, LOSS_OF_ALL, axis);
     return select(select(BY_COLUMNS, BY_SHEAVES, by_sheaves), AS_SHEAF, as_sheaf);
 }

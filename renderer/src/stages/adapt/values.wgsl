@@ -1,21 +1,6 @@
 // The quantity's bounds in the bricks of cells, found out and kept: by columns of a group of cells, or by sheaves of
 // sixteen cells at a time. So each lane has a column or a sheaf, of four columns or of all.
 
-// Which of so many particles that are loaded may reach the column, as bits. Found out before any of them is
-// added: lanes that run together then each add one of theirs, not all the same one.
-fn met_by(column: Column, first: u32, loaded: u32) -> u32 {
-    var met = 0u;
-    var i = 0u;
-    loop {
-        met |= select(0u, 1u << i, i < loaded && may_reach(column, balls[first + i]));
-        i += 1u;
-        if i >= loaded {
-            break;
-        }
-    }
-    return met;
-}
-
 // The lane's part in bounding bricks: some columns of a cell that is loaded.
 struct Task {
     wanted: bool,
@@ -36,14 +21,14 @@ fn expand(task: Task, loader: Loader, around: Column, reference: Quantity, most:
     loop {
         load_batch(loader, reference, base, axis);
         workgroupBarrier();
-        var met = met_by(around, first_ball, select(0u, loaded_of(task.cell, base), task.wanted));
+        let end = first_ball + select(0u, loaded_of(task.cell, base), task.wanted);
+        var particle = first_ball;
         loop {
-            if met != 0u {
-                let particle = first_ball + firstTrailingBit(met);
+            if particle < end {
                 evaluations += add_particle(&expansions, around, balls[particle], loads[particle]);
-                met &= met - 1u;
             }
-            if met == 0u {
+            particle += 1u;
+            if particle >= end {
                 break;
             }
         }
