@@ -23,8 +23,8 @@ const MOST_LEFT: f64 = 0.8;
 
 /// The same on a software adapter, for bundles of so many cells. There an analysis costs 0.5 to 1.4 of full sampling's
 /// ray cast with bricks of 2 × 2 rays, measured on lattices, a mixer, a dam break and a checker board. With those of
-/// 4 × 4 rays it is 0.4 of it where a bundle has ten cells or more, and 0.9 where it has five: it takes as long for a
-/// few of them as for sixteen.
+/// 4 × 4 rays it is a third of it where a bundle has ten cells or more, and 0.7 where it has five: it takes as long for
+/// a few of them as for sixteen.
 fn most_left_on_software(width: BrickWidth, cells: f64) -> f64 {
     match width {
         BrickWidth::Two => 0.16,
